@@ -12,16 +12,16 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
 
-/// Dense disparity of a rectified pair by comparing square windows.
+/// Dense disparity of a rectified pair by block matching.
 ///
-/// The answer at (u, v) is the d that minimizes
-/// `Σ |L(u+i, v+j) − R(u+i−d, v+j)|` over the window, where L and R are the pre-filtered
-/// pictures; two lines of opposite slope through the sums at d − 1, d, d + 1 give its fraction.
+/// The disparity at (u, v) is the d that minimizes `Σ |L(u+i, v+j) − R(u+i−d, v+j)|` over the
+/// window, where L and R are the pre-filtered images; two lines of opposite slope through the sums
+/// at d − 1, d, d + 1 give its fraction.
 ///
-/// A pixel has no answer (NaN) where the window holds too little texture, the best match lies
-/// outside the right picture, another disparity fits nearly as well, the right picture disagrees,
-/// or only a small speckle of pixels holds it. Windows reach over the picture's border by
-/// repeating it. Pictures without texture get no answers, not an error.
+/// A pixel has no disparity (NaN) if the window has too little texture, the best match lies outside
+/// the right image, another disparity fits nearly as well, the right image disagrees, or the
+/// disparity is that of a small speckle. Border pixels are repeated where windows reach over the
+/// border. Images without texture get no disparities, not an error.
 ///
 /// Source: Konolige 1997, "Small vision systems: hardware and implementation".
 ///
@@ -47,26 +47,25 @@ use image::{GrayImage, ImageBuffer, Luma};
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct StereoBm {
-    /// The smallest disparity looked for, pixels; negative for cameras that converge.
+    /// Minimum disparity, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,
-    /// Number of disparities, from the smallest on; 1 to 4096.
+    /// Number of disparities from the minimum upwards; 1 to 4096.
     pub num_disparities: u32,
-    /// Side of the window, pixels; odd, at most the picture's shorter side. The sums must fit 15
+    /// Side of the window, pixels; odd, at most the shorter side of the image. The sums must fit 15
     /// bits: `2 prefilter_cap window² ≤ 32766`, so at most 21 with a cap of 31.
     pub window_px: u32,
     /// Prefilter.
     pub prefilter: StereoPrefilter,
-    /// Pre-filtered values are limited to plus or minus this, 1 to 63.
+    /// Bound of the absolute pre-filtered values, 1 to 63.
     pub prefilter_cap: u8,
-    /// The smallest mean, per pixel of the window, of the pre-filtered left values' magnitudes;
-    /// 0: no such test.
+    /// Minimum mean magnitude of the pre-filtered left values in the window; 0 disables this test.
     pub min_texture: f32,
-    /// Which answers are kept.
+    /// Filter of the disparities.
     pub filter: DisparityFilter,
 }
 
 impl Default for StereoBm {
-    /// Disparities 0 to 63, windows of 15×15.
+    /// Returns disparities 0 to 63 and windows of 15×15.
     fn default() -> Self {
         Self {
             min_disparity_px: 0,
@@ -85,16 +84,16 @@ impl Default for StereoBm {
 }
 
 impl StereoBm {
-    /// The disparities of `left`.
+    /// Computes the disparities of `left`.
     ///
     /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
-    /// * `monitor`: the one stage is
+    /// * `monitor`: the only stage is
     ///   [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for pictures of different size, [`Error::TooFew`] for empty
-    /// pictures, [`Error::OutOfRange`] for an option outside its range or a window larger than
-    /// the picture, [`Error::Canceled`].
+    /// [`Error::SizeMismatch`] for images of different size, [`Error::TooFew`] for empty images,
+    /// [`Error::OutOfRange`] for an option outside its range or a window larger than the image,
+    /// [`Error::Canceled`].
     pub fn compute(
         &self,
         left: &GrayImage,
@@ -109,7 +108,7 @@ impl StereoBm {
         let strips = Strips {
             height: search.height,
             width: search.width,
-            // The first rows of a strip cost as much again as the window is high.
+            // Starting a strip costs as much as the rows of one window.
             least_rows: 4 * self.window_px as usize,
         };
         let part = &mut Part::new(monitor, 0.0, SEARCH_SHARE);
@@ -130,8 +129,8 @@ impl StereoBm {
         self.filter.clean(search.image(values), clean)
     }
 
-    /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest
-    /// value of both pictures become 0 and 255.
+    /// As [`StereoBm::compute`], for gray values of any range: the smallest and the largest value
+    /// of both images become 0 and 255.
     ///
     /// # Errors
     /// As [`StereoBm::compute`], and [`Error::NotFinite`] for NaN or infinities.
@@ -187,7 +186,7 @@ impl StereoBm {
     }
 }
 
-/// Sums over windows, kept from row to row.
+/// Running sums over windows.
 struct Windows<'a> {
     search: Search<'a>,
     radius: usize,
@@ -196,21 +195,21 @@ struct Windows<'a> {
     min_texture: f32,
     left: &'a [u8],
     right: &'a [u8],
-    /// The row that comes next.
+    /// Next row.
     v: usize,
-    /// Absolute differences of each column summed over the window's rows: width × `num_cells`.
+    /// Absolute differences of each column, summed over the window's rows: width × `num_cells`.
     columns: Vec<i16>,
-    /// Magnitudes of the left's columns, summed likewise.
+    /// Magnitudes of the left image's columns, summed likewise.
     textures: Vec<i32>,
-    /// The sums over the window of one pixel.
+    /// Sums over the window of one pixel.
     window: Vec<i16>,
-    /// The right rows that enter and leave the window, from their ends on.
+    /// Right rows that enter and leave the window, reversed.
     entering: Vec<u8>,
     leaving: Vec<u8>,
 }
 
 impl<'a> Windows<'a> {
-    /// Before row `first`.
+    /// Prepares the sums for row `first`.
     fn new(
         search: Search<'a>,
         options: &StereoBm,
@@ -234,7 +233,7 @@ impl<'a> Windows<'a> {
             entering: vec![0; padded],
             leaving: vec![0; padded],
         };
-        // The window around the row before the first, rows outside repeated.
+        // The window around the row before the first, with rows outside repeated.
         let radius = windows.radius as isize;
         for k in -radius..=radius {
             windows.add_row(windows.clamped(first as isize - 1 + k));
@@ -260,7 +259,7 @@ impl<'a> Windows<'a> {
         }
     }
 
-    /// The sums of the next row: width × `num_cells`.
+    /// Computes the sums of the next row: width × `num_cells`.
     fn next_row(&mut self, sums: &mut [i16]) {
         let radius = self.radius as isize;
         let new = self.clamped(self.v as isize + radius);
@@ -284,7 +283,7 @@ impl<'a> Windows<'a> {
         );
     }
 
-    /// Takes back the answers of the last row where the window is flat.
+    /// Removes the disparities of the last row in flat windows.
     fn forget_flat(&self, disparities: &mut [f32]) {
         if self.min_texture <= 0.0 {
             return;
@@ -305,11 +304,11 @@ impl<'a> Windows<'a> {
 }
 
 dispatched! {
-    /// The sums over the windows of a row.
+    /// Computes the sums over the windows of a row.
     ///
     /// * `left`: the left rows that enter and leave the window, `right`: the right ones, reversed
-    /// * `columns`: sums over the window's rows, before: of the row above, after: of this one
-    /// * `window`: `num_cells` values to work with
+    /// * `columns`: sums over the window's rows, updated from the previous row to this one
+    /// * `window`: buffer of `num_cells` values
     fn slide_windows(
         num_cells: usize,
         radius: usize,
@@ -328,7 +327,7 @@ dispatched! {
                 exchange(&mut columns[column(u)], left[0][u], entering, left[1][u], leaving);
             }
             if u == 0 {
-                // Columns left of the picture repeat the first.
+                // Columns left of the image repeat the first.
                 for (sum, first) in window.iter_mut().zip(&columns[column(0)]) {
                     *sum = first * radius as i16;
                 }
@@ -345,7 +344,7 @@ dispatched! {
     }
 }
 
-/// A column of the window gains the differences of one row and loses those of another.
+/// Adds the differences of one row to a column of the window and subtracts those of another.
 #[inline(always)]
 fn exchange(cells: &mut [i16], gray_in: u8, entering: &[u8], gray_out: u8, leaving: &[u8]) {
     let n = cells.len();
@@ -357,7 +356,7 @@ fn exchange(cells: &mut [i16], gray_in: u8, entering: &[u8], gray_out: u8, leavi
     }
 }
 
-/// |a − b|, in steps that vector units have for bytes.
+/// Returns |a − b|, by operations that vector units have for bytes.
 #[inline(always)]
 fn gap(a: u8, b: u8) -> u8 {
     a.max(b) - a.min(b)
@@ -370,7 +369,7 @@ fn slide(window: &mut [i16], entering: &[i16]) {
     }
 }
 
-/// A column enters, the sums are complete, a column leaves.
+/// Adds a column to the window, writes the sums, and removes a column.
 #[inline(always)]
 fn slide_out(window: &mut [i16], entering: &[i16], leaving: &[i16], out: &mut [i16]) {
     let n = window.len();

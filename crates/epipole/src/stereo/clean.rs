@@ -1,16 +1,16 @@
-//! Removing answers that stand alone, and closing single gaps.
+//! Removal of speckles and interpolation of small gaps.
 
 use super::DisparityImage;
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 
-/// Removes the answers of every connected set of fewer than `min_size` pixels; neighbors left,
-/// right, above and below are connected if their disparities differ by at most `range_px`. The one
-/// stage is [`Stage::DenseMatching`].
+/// Removes the disparities of every connected set of fewer than `min_size` pixels; 4-neighbors are
+/// connected if their disparities differ by at most `range_px`. The only stage is
+/// [`Stage::DenseMatching`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] unless `range_px` is a number ≥ 0; [`Error::Canceled`], upon which nothing
-/// is removed.
+/// [`Error::OutOfRange`] unless `range_px` is a number ≥ 0; [`Error::Canceled`] leaves the
+/// disparities unchanged.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -61,7 +61,7 @@ pub fn remove_speckles(
         runs.sizes[run as usize] += 1;
         if i >= width && connected(values[i], values[i - width], range_px) {
             let above = run_of_pixel[i - width];
-            // Most pixels repeat what the one before them said.
+            // Most pixels repeat the connection of the previous pixel.
             let repeats = !is_first
                 && above == run_of_pixel[i - 1 - width]
                 && connected(values[i - 1], values[i - 1 - width], range_px);
@@ -80,7 +80,7 @@ pub fn remove_speckles(
     Ok(())
 }
 
-/// The run of a pixel without answer.
+/// The run of a pixel without disparity.
 const NO_RUN: u32 = u32::MAX;
 
 fn connected(a: f32, b: f32, range_px: f32) -> bool {
@@ -91,7 +91,7 @@ fn connected(a: f32, b: f32, range_px: f32) -> bool {
 #[derive(Default)]
 struct Sets {
     parents: Vec<u32>,
-    /// Pixels of each run alone.
+    /// Number of pixels of each run.
     sizes: Vec<u32>,
 }
 
@@ -119,7 +119,7 @@ impl Sets {
         self.parents[a.max(b) as usize] = a.min(b);
     }
 
-    /// Of each run, whether its set has fewer pixels.
+    /// Returns, for each run, whether its set has fewer pixels.
     fn smaller_than(&mut self, min_size: u32) -> Vec<bool> {
         let roots: Vec<u32> = (0..self.parents.len() as u32)
             .map(|r| self.root(r))
@@ -133,9 +133,9 @@ impl Sets {
     }
 }
 
-/// Closes gaps of at most `max_gap` pixels along rows, then along columns, by a straight line
-/// between the answers at both ends, where these differ by at most `range_px`: a surface that
-/// goes on behind the gap. Where they differ more, one end hides what lies behind, and the gap
+/// Closes gaps of at most `max_gap` pixels along rows, then along columns, by linear interpolation
+/// between the disparities at both ends, if these differ by at most `range_px`. Otherwise one end
+/// occludes the other surface, and the gap remains.
 /// stays.
 pub(super) fn close_gaps(disparity: &mut DisparityImage, max_gap: usize, range_px: f32) {
     if max_gap == 0 {
@@ -151,7 +151,7 @@ pub(super) fn close_gaps(disparity: &mut DisparityImage, max_gap: usize, range_p
     }
 }
 
-/// Of `len` pixels, each `step` after the last.
+/// Closes the gaps of `len` pixels at intervals of `step`.
 fn close_gaps_of_line(
     values: &mut [f32],
     first: usize,
@@ -186,7 +186,7 @@ mod tests {
 
     const NAN: f32 = f32::NAN;
 
-    /// The same by growing each set pixel by pixel.
+    /// Reference implementation that grows each set pixel by pixel.
     fn grown(disparity: &DisparityImage, min_size: usize, range_px: f32) -> DisparityImage {
         let (width, height) = (disparity.width() as usize, disparity.height() as usize);
         let values = disparity.as_raw();
@@ -254,7 +254,7 @@ mod tests {
                 .iter()
                 .all(|&u| disparity.get(u, 0).is_none())
         );
-        // Along a column too.
+        // Also along a column.
         let mut disparity = DisparityImage::from_raw(1, 11, row).unwrap();
         close_gaps(&mut disparity, 3, 2.0);
         assert_eq!(disparity.get(0, 7), Some(9.0));

@@ -1,8 +1,8 @@
-//! Depth from disparity, and how uncertain it is.
+//! Depth from disparity, and its uncertainty.
 
 use crate::{Error, Result};
 
-/// Depth of a point seen by a rectified stereo pair, `Z = f B / d`.
+/// Computes the depth of a point seen by a rectified stereo pair, `Z = f B / d`.
 ///
 /// * `focal_px`: focal length shared by both cameras, pixels
 /// * `baseline_m`: distance between the camera centers, meters, > 0
@@ -30,19 +30,19 @@ pub fn depth_from_disparity(focal_px: f64, baseline_m: f64, disparity_px: f64) -
     finite_depth(focal_px * baseline_m, disparity_px).ok_or(Error::PointAtInfinity)
 }
 
-/// The depths that a disparity known only to within some pixels allows.
+/// Interval of depths for a disparity with bounded error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DepthInterval {
-    /// The smallest depth, meters.
+    /// Minimum depth, meters.
     pub near_m: f64,
-    /// The largest depth, meters; `None` if the interval reaches infinity.
+    /// Maximum depth, meters; `None` if the interval reaches infinity.
     pub far_m: Option<f64>,
 }
 
-/// The depths between `f B / (d + δ)` and `f B / (d − δ)`.
+/// Computes the depths between `f B / (d + δ)` and `f B / (d − δ)`.
 ///
 /// * `focal_px`, `baseline_m`, `disparity_px`: as for [`depth_from_disparity`]
-/// * `error_px`: δ, the largest error of the disparity, pixels, ≥ 0
+/// * `error_px`: δ, maximum error of the disparity, pixels, ≥ 0
 ///
 /// If `d − δ <= 0`, even parallel rays are possible, and [`DepthInterval::far_m`] is `None`.
 ///
@@ -126,7 +126,7 @@ mod tests {
             let interval = depth_interval(700.0, 0.12, disparity_px, 0.1).unwrap();
             interval.far_m.unwrap() - interval.near_m
         };
-        // Half the disparity is twice the depth, so four times the uncertainty.
+        // Half the disparity means twice the depth, so four times the uncertainty.
         assert!((width(15.0) / width(30.0) - 4.0).abs() < 1e-3);
     }
 

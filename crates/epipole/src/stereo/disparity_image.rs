@@ -1,10 +1,9 @@
-//! A disparity for every pixel of the left picture, or none.
+//! Disparities of the pixels of the left image.
 
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma};
 
-/// Disparities `d = u_left − u_right` of the left picture's pixels, in pixels; NaN where there is
-/// no answer.
+/// Disparities `d = u_left − u_right` of the left image's pixels, in pixels; NaN if unknown.
 ///
 /// Values are either finite or NaN, never infinite.
 ///
@@ -26,7 +25,7 @@ pub struct DisparityImage {
 }
 
 impl DisparityImage {
-    /// Disparities row by row; an infinity is taken for "no answer" too.
+    /// Creates an image from disparities row by row; infinite values become NaN.
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] unless there are width × height values.
@@ -40,7 +39,7 @@ impl DisparityImage {
             });
         }
         for value in &mut values {
-            // Without a branch, which unknown pixels among known ones would make slow.
+            // Branch-free, as unknown pixels among known ones would make branches slow.
             *value = if value.is_finite() { *value } else { f32::NAN };
         }
         Ok(Self {
@@ -50,7 +49,7 @@ impl DisparityImage {
         })
     }
 
-    /// For values known to be finite or NaN, and to fill the picture.
+    /// Creates an image from values known to be finite or NaN, and of the right number.
     pub(super) fn new(width: u32, height: u32, values: Vec<f32>) -> Self {
         debug_assert_eq!(values.len(), width as usize * height as usize);
         Self {
@@ -60,17 +59,17 @@ impl DisparityImage {
         }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// The disparity at column `u` and row `v`; none outside the picture.
+    /// Returns the disparity at column `u` and row `v`; `None` if unknown or outside the image.
     pub fn get(&self, u: u32, v: u32) -> Option<f32> {
         if u >= self.width || v >= self.height {
             return None;
@@ -79,12 +78,12 @@ impl DisparityImage {
         (!value.is_nan()).then_some(value)
     }
 
-    /// All values row by row, NaN for none.
+    /// Returns all values row by row, NaN if unknown.
     pub fn as_raw(&self) -> &[f32] {
         &self.values
     }
 
-    /// Rows and columns exchanged.
+    /// Exchanges rows and columns.
     pub(super) fn transposed(&self) -> Self {
         let value = |u: u32, v: u32| self.values[u as usize * self.width as usize + v as usize];
         let pixels = (0..self.width).flat_map(|v| (0..self.height).map(move |u| (u, v)));
@@ -99,14 +98,14 @@ impl DisparityImage {
         &mut self.values
     }
 
-    /// The values as a gray picture of `f32`, NaN for none.
+    /// Converts the values to a gray image of `f32`, NaN if unknown.
     pub fn into_image(self) -> ImageBuffer<Luma<f32>, Vec<f32>> {
         let (width, height) = (self.width, self.height);
         ImageBuffer::from_raw(width, height, self.values)
             .expect("the constructor checked that the values fill the picture")
     }
 
-    /// The share of pixels that have an answer, 0 to 1; 0 for an empty picture.
+    /// Returns the fraction of pixels with a disparity, 0 to 1; 0 for an empty image.
     pub fn density(&self) -> f64 {
         if self.values.is_empty() {
             return 0.0;
@@ -115,7 +114,7 @@ impl DisparityImage {
         answered as f64 / self.values.len() as f64
     }
 
-    /// The smallest and the largest disparity, in pixels; none if no pixel has an answer.
+    /// Returns the minimum and maximum disparity, pixels; `None` if no pixel has one.
     pub fn range_px(&self) -> Option<(f32, f32)> {
         self.values
             .iter()
@@ -127,7 +126,7 @@ impl DisparityImage {
     }
 }
 
-/// Two pictures are equal when they answer the same pixels with the same bits.
+/// Images are equal if the same pixels have disparities with the same bits.
 impl PartialEq for DisparityImage {
     fn eq(&self, other: &Self) -> bool {
         let same = |(a, b): (&f32, &f32)| a == b || (a.is_nan() && b.is_nan());

@@ -1,4 +1,4 @@
-//! A disparity for every pixel: what is seen beside a gap goes on behind it.
+//! Filling of gaps with the background disparity beside them.
 
 use super::DisparityImage;
 use crate::math::monitored;
@@ -8,23 +8,22 @@ use image::GrayImage;
 
 /// Half the side of the window that refines a filled pixel.
 const RADIUS: usize = 7;
-/// Difference of gray values at which a neighbor's vote falls to 1/e.
+/// Difference of gray values at which a neighbor's weight falls to 1/e.
 const GRAY_SCALE: f64 = 8.0;
 
-/// Every pixel answered: gaps take the disparity of the background beside them, along edges of
-/// the left picture.
+/// Fills all gaps with the disparity of the background beside them, along edges of the left image.
 ///
-/// A pixel that one camera does not see lies behind what hides it, so a gap first takes the
-/// smaller of the nearest disparities to its left and right in the row (rows without any answer
-/// take the nearest row's). Then each filled pixel takes the median of the disparities in a
-/// window of 15×15 around it, weighted by how similar the left picture's gray values are
-/// (`exp(−|ΔI| / 8)`). Given answers do not change. Where no pixel has an answer, none gets one.
-/// The one stage is [`Stage::DenseMatching`].
+/// A pixel that one camera does not see lies behind the occluding object, so a gap first takes the
+/// smaller of the nearest disparities to its left and right in the row (empty rows take those of
+/// the nearest row). Then each filled pixel takes the median of the disparities in a 15×15 window,
+/// weighted by the similarity of the left image's gray values (`exp(−|ΔI| / 8)`). Given disparities
+/// do not change. Without any disparity nothing is filled. The only stage is
+/// [`Stage::DenseMatching`].
 ///
-/// * `left`: the picture that the disparities belong to
+/// * `left`: image of the disparities
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the two are not of equal size, [`Error::Canceled`].
+/// [`Error::SizeMismatch`] if the sizes differ, [`Error::Canceled`].
 ///
 /// Sources: Hirschmüller 2008, §2.6 (background interpolation); Ma, He, Wei, Sun & Wu 2013,
 /// "Constant time weighted median filtering for stereo matching and beyond".
@@ -101,13 +100,13 @@ fn take_background(row: &mut [f32]) {
             .unwrap_or(row.len());
         let before = begin.checked_sub(1).map_or(f32::NAN, |u| row[u]);
         let after = row.get(end).copied().unwrap_or(f32::NAN);
-        // The smaller of two numbers, or the only one.
+        // The smaller of two numbers, or the only number.
         row[begin..end].fill(before.min(after));
         begin = end;
     }
 }
 
-/// Rows that are still empty take those of the nearest row above that is not, or below.
+/// Fills empty rows from the nearest nonempty row above, or else below.
 fn copy_to_empty_rows(values: &mut [f32], width: usize) {
     let height = values.len() / width;
     let is_empty = |values: &[f32], v: usize| values[v * width].is_nan();
@@ -123,7 +122,7 @@ fn copy_to_empty_rows(values: &mut [f32], width: usize) {
     }
 }
 
-/// The median of the disparities around (u, v), each counted by its likeness to the center.
+/// Returns the median of the disparities around (u, v), weighted by similarity to the center.
 fn weighted_median(
     disparity: &DisparityImage,
     left: &GrayImage,
@@ -188,8 +187,8 @@ mod tests {
         assert!(fill_gaps(&nothing, &GrayImage::new(2, 4), &mut ()).is_err());
     }
 
-    /// The picture's edge, not the gap's middle, divides the two surfaces, and nothing given
-    /// changes.
+    /// The surfaces meet at the edge in the image, not in the middle of the gap, and given
+    /// disparities do not change.
     #[test]
     fn filling_follows_the_edges_of_the_picture() {
         let (width, height, edge) = (40, 30, 20);
@@ -199,7 +198,7 @@ mod tests {
         let truth = |u: u32| if u < edge { 10.0 } else { 4.0 };
         let values = (0..width * height)
             .map(|i| match i % width {
-                // Alternate rows know different parts, so only votes find the edge.
+                // Alternate rows lack different parts, so only the weighted median finds the edge.
                 u if (15..25).contains(&u) && !(i / width).is_multiple_of(3) => NAN,
                 u => truth(u),
             })

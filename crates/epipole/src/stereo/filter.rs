@@ -1,4 +1,4 @@
-//! Which answers of a dense matcher are kept.
+//! Filter of the disparities of a dense matcher.
 
 use super::DisparityImage;
 use super::clean::{close_gaps, remove_speckles};
@@ -6,7 +6,7 @@ use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
-/// Share of a dense matcher's time until its answers are filtered.
+/// Progress of a dense matcher when the filter starts.
 pub(super) const SEARCH_SHARE: f32 = 0.9;
 
 /// Tests that an answer of a dense matcher must pass.
@@ -26,23 +26,23 @@ pub(super) const SEARCH_SHARE: f32 = 0.9;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct DisparityFilter {
-    /// Percent by which the costs of all disparities two or more away from the best must be
-    /// higher, 0 to 99; 0: no such test.
+    /// Minimum percentage by which the costs of all disparities two or more away must exceed the
+    /// best, 0 to 99; 0 disables this test.
     pub uniqueness_percent: u32,
-    /// The largest difference between the disparities seen from the left and from the right,
-    /// pixels; none: no such test.
+    /// Maximum difference between the disparities from the left and from the right, pixels; `None`
+    /// disables this test.
     pub left_right_max_px: Option<u32>,
-    /// Answers that hang together in fewer pixels than this are removed; 0 or 1: none.
+    /// Minimum number of connected pixels: smaller sets are removed; 0 or 1 disables this test.
     pub speckle_size: u32,
-    /// Neighbors whose disparities differ by no more than this hang together, pixels.
+    /// Maximum difference of disparities between connected neighbors, pixels.
     pub speckle_range_px: f32,
-    /// The longest gap along a row or a column, pixels, that is closed by interpolation where
-    /// the answers at its two ends hang together; 0: none.
+    /// Maximum length of a gap along a row or column, pixels, to close by interpolation if the
+    /// disparities at its ends are connected; 0 disables this.
     pub max_gap_px: u32,
 }
 
 impl Default for DisparityFilter {
-    /// The filter of [`StereoSgm`](super::StereoSgm).
+    /// Returns the filter of [`StereoSgm`](super::StereoSgm).
     fn default() -> Self {
         Self {
             uniqueness_percent: 3,

@@ -1,11 +1,11 @@
-//! Matching costs of a left pixel and each candidate of the right row, in eight bits.
+//! Eight-bit matching costs of a left pixel and each candidate of the right row.
 //!
-//! Two measures that fail in different places are added: the Hamming distance of census bits
-//! (0…24, blind to brightness and contrast), and the difference of gray that sampling cannot
-//! explain (0…cap, sharp where texture is weak).
+//! The sum of two measures with different weaknesses: the Hamming distance of census bits (0…24,
+//! independent of brightness and contrast), and the difference of gray values that sampling cannot
+//! explain (0…cap, accurate where texture is weak).
 //!
-//! The right row is stored from its end to its beginning, so that the candidates of increasing
-//! disparity lie side by side in memory.
+//! The right row is stored in reverse, so that candidates of increasing disparity are adjacent in
+//! memory.
 //!
 //! Sources: Zabih & Woodfill 1994, "Non-parametric local transforms for computing visual
 //! correspondence"; Birchfield & Tomasi 1998, "A pixel dissimilarity measure that is insensitive
@@ -28,20 +28,20 @@ const NUM_PLANES: usize = 3;
     serde(rename_all = "snake_case")
 )]
 pub enum StereoCost {
-    /// Hamming distance of the census transform over 5×5 pixels: immune to a change of
-    /// brightness or contrast between the pictures.
+    /// Hamming distance of the census transform over 5×5 pixels: invariant to brightness and
+    /// contrast changes between the images.
     Census,
-    /// Difference of gray values that is insensitive to sampling (Birchfield–Tomasi), capped.
+    /// Sampling-insensitive difference of gray values (Birchfield–Tomasi), capped.
     BirchfieldTomasi,
-    /// The sum of both: the best on every picture that we tried.
+    /// Sum of both: the best on every image that we tried.
     #[default]
     Both,
 }
 
-/// One row of one picture, prepared for comparison.
+/// One row of an image, prepared for comparison.
 struct PreparedRow {
     gray: Vec<u8>,
-    /// The smallest and largest gray value within half a pixel along the row.
+    /// Minimum gray value within half a pixel along the row; `high` is the maximum.
     low: Vec<u8>,
     high: Vec<u8>,
     census: [Vec<u8>; NUM_PLANES],
@@ -88,7 +88,7 @@ impl PreparedRow {
 }
 
 dispatched! {
-    /// The smallest and largest value within half a pixel on either side.
+    /// Computes the minimum and maximum within half a pixel on either side.
     fn half_pixel_range(
         center: &[u8],
         before: &[u8],
@@ -118,17 +118,16 @@ dispatched! {
     }
 }
 
-/// Makes the costs of one row after another.
+/// Computes the costs of one row after another.
 pub(super) struct CostRows<'a> {
     search: Search<'a>,
     kind: StereoCost,
     cap: u8,
-    /// The cost of a candidate outside the right picture.
+    /// Cost of a candidate outside the right image.
     outside: u8,
     left: PreparedRow,
     right: PreparedRow,
-    /// The right row from its end, shifted so that cell d of column u is at
-    /// `width − 1 − u + d`.
+    /// The right row in reverse, shifted so that cell d of column u is at `width − 1 − u + d`.
     reversed: PreparedRow,
     window: Vec<Vec<u8>>,
 }
@@ -148,7 +147,7 @@ impl<'a> CostRows<'a> {
         }
     }
 
-    /// The costs of row v: width × `num_cells`.
+    /// Computes the costs of row v: width × `num_cells`.
     pub(super) fn row(&mut self, v: usize, costs: &mut [u8]) {
         let search = self.search;
         self.left.fill(search.left, v, &mut self.window);
@@ -193,13 +192,14 @@ impl<'a> CostRows<'a> {
     }
 }
 
-/// Sums of [`compare`].
+/// Bits of `KIND` in [`compare`].
 const CENSUS: u8 = 1;
 const GRAY: u8 = 2;
 const BOTH: u8 = CENSUS | GRAY;
 
 dispatched! {
-    /// The costs of a row, width × `num_cells`; those outside the right picture are arbitrary.
+    /// Computes the costs of a row, width × `num_cells`; those outside the right image are
+    /// arbitrary.
     fn compare<const KIND: u8>(
         num_cells: usize,
         cap: u8,
@@ -227,7 +227,7 @@ dispatched! {
                 if KIND & CENSUS != 0 {
                     let (a, b) = (bits[0] ^ bits_0[d], bits[1] ^ bits_1[d]);
                     let c = bits[2] ^ bits_2[d];
-                    // Three bytes added bit by bit leave two to be counted.
+                    // Three bytes added bit by bit leave two whose bits are counted.
                     let half = a ^ b;
                     let (ones, twos) = (half ^ c, (a & b) | (half & c));
                     cost = count_bits(ones) + 2 * count_bits(twos);
@@ -247,7 +247,7 @@ dispatched! {
     }
 }
 
-/// The number of ones in a byte, in steps that a vector unit has.
+/// Counts the ones in a byte, by operations that a vector unit has.
 #[inline(always)]
 fn count_bits(x: u8) -> u8 {
     x.count_ones() as u8

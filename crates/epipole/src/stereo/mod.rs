@@ -1,4 +1,4 @@
-//! Two photographs taken side by side: rectification, dense disparity, depth, point clouds.
+//! Stereo: rectification, dense disparity, depth, point clouds.
 
 mod block_matching;
 mod clean;

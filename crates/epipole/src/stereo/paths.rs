@@ -1,4 +1,4 @@
-//! The recursion of semi-global matching along straight paths through the picture.
+//! Path costs of semi-global matching along straight paths through the image.
 //!
 //! Along a path r, with the cost C(p, d) of pixel p at disparity d,
 //! `L(p, d) = C(p, d) + min(L(p−r, d), L(p−r, d±1) + P1, min L(p−r) + P2) − min L(p−r)`.
@@ -10,15 +10,15 @@
 
 use crate::math::simd::dispatched;
 
-/// Bytes of "infinite cost" on either side of a path's disparities, so that d ± 1 exists.
+/// Number of bytes of infinite cost on either side of a path's disparities, so that d ± 1 exists.
 const PAD: usize = 8;
 
-/// Penalties for a change of disparity between neighbors.
+/// Penalties for changes of disparity between neighbors.
 #[derive(Clone)]
 pub(super) struct Penalties {
-    /// For a change by one.
+    /// Penalty for a change by one.
     pub(super) p1: u8,
-    /// For any larger change, by the difference of gray across the step.
+    /// Penalty for any larger change, by the gray difference between the neighbors.
     pub(super) p2_of_gray_step: [u8; 256],
 }
 
@@ -31,7 +31,7 @@ struct PathRow {
 }
 
 impl PathRow {
-    /// Paths yet to begin: L = 0, so that a first pixel costs C alone.
+    /// Creates the state before the first row: L = 0, so that a first pixel costs C alone.
     fn new(width: usize, num_cells: usize) -> Self {
         let mut cells = vec![u8::MAX; (width + 2) * (num_cells + 2 * PAD)];
         for pixel in cells.chunks_exact_mut(num_cells + 2 * PAD) {
@@ -44,7 +44,7 @@ impl PathRow {
     }
 }
 
-/// Continues one path by one pixel: writes its costs to `next` and tells the smallest.
+/// Continues a path by one pixel: writes its costs to `next` and returns the smallest.
 ///
 /// * `before`: from the cell before disparity 0 to the cell after the last
 /// * `minimum`: the smallest of them, `p2`: the penalty of a large step to here
@@ -60,8 +60,8 @@ pub(super) fn advance<const BLOCK: usize>(
     let n = costs.len();
     let jump = minimum.saturating_add(p2);
     let mut least = [u8::MAX; BLOCK];
-    // Counted rather than zipped: this runs for every pixel, and five slices in step cost more to
-    // begin than to walk.
+    // Indexed rather than zipped: this runs for every pixel, and setting up an iterator over five
+    // slices costs more than the loop.
     let [below, same, above] = [0, 1, 2].map(|first| before[first..first + n].as_chunks().0);
     let (costs, next) = (costs.as_chunks().0, next.as_chunks_mut().0);
     for block in 0..n / BLOCK {
@@ -84,10 +84,10 @@ pub(super) fn advance<const BLOCK: usize>(
 }
 
 dispatched! {
-    /// A path from the row before, one column aside or straight.
+    /// Continues a path from the previous row, straight or one column aside.
     ///
-    /// * `p2`: of each pixel's step
-    /// * `before`, `before_minima`: from the pixel on that the first one comes from
+    /// * `p2`: penalty of each pixel's step
+    /// * `before`, `before_minima`: from the predecessor of the first pixel on
     /// * `next`, `next_minima`: from the first pixel on
     fn continue_from_before<const BLOCK: usize>(
         num_cells: usize,
@@ -116,10 +116,10 @@ dispatched! {
 }
 
 dispatched! {
-    /// The path along the row, from its first pixel to its last or the other way.
+    /// Continues the path along the row, forward or backward.
     ///
     /// * `path`: from the first pixel on
-    /// * `previous`: pad, cells, pad of the pixel before; zeros in the cells to begin with
+    /// * `previous`: pad, cells, pad of the previous pixel; cells are initially zero
     fn continue_along<const BLOCK: usize>(
         num_cells: usize,
         backward: bool,
@@ -137,7 +137,7 @@ dispatched! {
             let next = &mut path[u * stride + PAD..u * stride + PAD + num_cells];
             let before = &previous[PAD - 1..PAD + num_cells + 1];
             minimum = advance::<BLOCK>(costs, before, minimum, p1, p2[u], next);
-            // Kept apart from the row, so that reading it cannot meet the writing.
+            // Copied from the row, so that reads cannot alias writes.
             let kept = previous[PAD..PAD + num_cells].chunks_exact_mut(BLOCK);
             for (kept, cells) in kept.zip(next.chunks_exact(BLOCK)) {
                 kept.copy_from_slice(cells);
@@ -147,9 +147,9 @@ dispatched! {
 }
 
 dispatched! {
-    /// The mean of N paths' costs, rounded.
+    /// Computes the rounded mean of N paths' costs.
     ///
-    /// * `paths`: the rows of the paths, from the first pixel's cells on; the first N count
+    /// * `paths`: rows of the paths, from the first pixel's cells on; only the first N are used
     fn average<const N: usize>(num_cells: usize, paths: [&[u8]; 4], means: &mut [u8]) {
         let stride = num_cells + 2 * PAD;
         for (u, means) in means.chunks_exact_mut(num_cells).enumerate() {
@@ -165,7 +165,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// Adds N paths' costs to `sums`, as [`average`].
+    /// Adds N paths' costs to `sums`; arguments as for [`average`].
     fn add<const N: usize>(num_cells: usize, paths: [&[u8]; 4], sums: &mut [i16]) {
         let stride = num_cells + 2 * PAD;
         for (u, sums) in sums.chunks_exact_mut(num_cells).enumerate() {
@@ -179,7 +179,7 @@ dispatched! {
     }
 }
 
-/// The sum of the first N.
+/// Returns the sum of the first N.
 #[inline(always)]
 fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
     let [a, b, c, d] = [i16::from(a), i16::from(b), i16::from(c), i16::from(d)];
@@ -190,18 +190,18 @@ fn total<const N: usize>(a: u8, b: u8, c: u8, d: u8) -> i16 {
     }
 }
 
-/// A sweep over the rows that carries N paths: always the one along the row (first), with N = 2
-/// also the vertical one, with N = 4 also both diagonals.
+/// A sweep over the rows with N paths: the one along the row (first), for N = 2 also the vertical
+/// one, for N = 4 also both diagonals.
 pub(super) struct Sweep<const N: usize> {
     rows: [PathRow; N],
-    /// Of the row before, except for the path along the row, which needs none.
+    /// Costs of the previous row, except for the path along the row.
     rows_before: Vec<PathRow>,
     gray_before: Vec<u8>,
-    /// The penalty of a large step to each pixel.
+    /// Penalty of a large step to each pixel.
     p2: Vec<u8>,
     previous: Vec<u8>,
     num_cells: usize,
-    /// From the last pixel to the first.
+    /// Whether each row is processed from its last pixel to its first.
     backward: bool,
 }
 
@@ -251,12 +251,12 @@ impl<const N: usize> Sweep<N> {
         let (p2, previous) = (&self.p2, &mut self.previous);
         continue_along::<BLOCK>(n, self.backward, costs, p1, p2, path, previous);
 
-        // Diagonals lean the way that the sweep goes along its rows.
+        // Diagonals depend on the direction along the rows.
         let steps: [isize; 3] = if N == 4 { [back, 0, -back] } else { [0; 3] };
         for ((next, before), step) in others.iter_mut().zip(&mut self.rows_before).zip(steps) {
             std::mem::swap(next, before);
             penalties.of_steps(gray, &self.gray_before, step, &mut self.p2);
-            // Pixel u has the index u + 1, behind the border's.
+            // Pixel u has index u + 1, after the border.
             let first = (1 + step) as usize;
             continue_from_before::<BLOCK>(
                 n,
@@ -271,7 +271,7 @@ impl<const N: usize> Sweep<N> {
         }
     }
 
-    /// The last row of each path, from the first pixel's cells on.
+    /// Returns the last row of each path, from the first pixel's cells on.
     fn paths(&self) -> [&[u8]; 4] {
         let begin = self.num_cells + 3 * PAD;
         std::array::from_fn(|n| &self.rows[n.min(N - 1)].cells[begin..])
@@ -282,7 +282,7 @@ impl<const N: usize> Sweep<N> {
         add::<N>(self.num_cells, self.paths(), sums);
     }
 
-    /// The mean of the path costs of the last row, rounded, which fits eight bits; width ×
+    /// Returns the rounded mean of the path costs of the last row, which fits eight bits; width ×
     /// `num_cells`.
     pub(super) fn means(&self, means: &mut [u8]) {
         average::<N>(self.num_cells, self.paths(), means);
@@ -290,11 +290,11 @@ impl<const N: usize> Sweep<N> {
 }
 
 impl Penalties {
-    /// P2 of the step to each pixel of a row from the one `step` columns aside in the row
-    /// `there`. What lies outside does not matter: a path that begins has no costs yet.
+    /// Computes P2 of the step to each pixel of a row from the pixel `step` columns aside in the
+    /// row `there`. Pixels outside do not matter: a new path has no costs yet.
     fn of_steps(&self, here: &[u8], there: &[u8], step: isize, p2: &mut [u8]) {
         let width = here.len();
-        // The pixels whose neighbor is inside.
+        // Pixels with a neighbor inside the image.
         let begin = usize::from(step < 0).min(width);
         let end = width - usize::from(step > 0).min(width);
         p2.fill(self.p2_of_gray_step[0]);

@@ -7,8 +7,8 @@ use super::semi_global::{OUTSIDE_COST, StereoSgm};
 use crate::{Error, Result};
 use image::GrayImage;
 
-/// Steps (du, dv) of the eight paths that lead to a pixel, in pixels: along the row, along the
-/// column, and along both diagonals, each both ways.
+/// Steps (du, dv) of the eight paths to a pixel, in pixels: along the row, the column, and both
+/// diagonals, each in both directions.
 pub const PATH_STEPS: [[i32; 2]; 8] = [
     [1, 0],
     [-1, 0],
@@ -20,17 +20,17 @@ pub const PATH_STEPS: [[i32; 2]; 8] = [
     [1, -1],
 ];
 
-/// Costs of one left pixel at each disparity, from the smallest on.
+/// Costs of one left pixel at each disparity, from the minimum upwards.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PixelCosts {
     /// Matching cost C.
     pub matching: Vec<u8>,
-    /// Path costs L of the directions in [`PATH_STEPS`].
+    /// Path costs L for each of [`PATH_STEPS`].
     pub paths: [PathCosts; 8],
 }
 
-/// One path to a pixel.
+/// Costs of one path to a pixel.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PathCosts {
@@ -41,8 +41,8 @@ pub struct PathCosts {
 }
 
 impl StereoSgm {
-    /// Costs of one pixel of `left`, whatever the number of [`paths`](Self::paths): what
-    /// [`compute`](Self::compute) adds up there.
+    /// Returns the costs of one pixel of `left` for all eight paths, whatever the number of
+    /// [`paths`](Self::paths): the terms that [`compute`](Self::compute) adds there.
     ///
     /// * `left`, `right`: as for [`compute`](Self::compute)
     /// * `u`, `v`: column and row of the pixel
@@ -92,7 +92,7 @@ impl StereoSgm {
         let mut cost_rows = CostRows::new(search, self.cost, self.gray_cap, OUTSIDE_COST);
         let mut row_costs = vec![0; search.width * search.num_cells];
         let mut paths: [Path; 8] = std::array::from_fn(|_| Path::new(&search));
-        // Rows above, then rows below, each towards the pixel, then its own.
+        // Rows above, then rows below, each towards the pixel, then its own row.
         for row in (0..v).chain((v + 1..search.height).rev()).chain([v]) {
             cost_rows.row(row, &mut row_costs);
             let gray = search.row_of(search.left.as_raw(), row);
@@ -123,9 +123,9 @@ impl StereoSgm {
     }
 }
 
-/// A path on its way to the pixel.
+/// State of a path towards the pixel.
 struct Path {
-    /// Path costs of the last pixel, between two that nothing reaches.
+    /// Path costs of the last pixel, between two unreachable cells.
     cells: Vec<u8>,
     minimum: u8,
     gray_before: Option<u8>,
@@ -134,7 +134,7 @@ struct Path {
 }
 
 impl Path {
-    /// A path yet to begin: L = 0, so that its first pixel costs C alone.
+    /// Creates a path before its first pixel: L = 0, so that this pixel costs C alone.
     fn new(search: &Search) -> Self {
         let mut cells = vec![0; search.num_disparities + 2];
         cells[0] = u8::MAX;

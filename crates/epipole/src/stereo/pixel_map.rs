@@ -1,4 +1,4 @@
-//! A picture redrawn: for each pixel of the result, where to read.
+//! Maps from the pixels of a result to positions in a source image.
 
 use crate::imaging::Channel;
 use crate::math::monitored;
@@ -7,18 +7,18 @@ use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Pixel};
 use nalgebra::{Matrix3, Point2};
 
-/// For every pixel of a result, the place in a source picture that it is read from, or none.
+/// Position in a source image for every pixel of a result, if any.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PixelMap {
     width: u32,
     height: u32,
-    /// (u, v) in the source; NaN where there is none.
+    /// (u, v) in the source; NaN if there is none.
     sources: Vec<[f32; 2]>,
 }
 
 impl PixelMap {
-    /// The map that reads pixel (u, v) of the result from `source(u, v)`. The one stage is
-    /// [`Stage::Warping`].
+    /// Creates a map in which pixel (u, v) of the result is read from `source(u, v)`. The only
+    /// stage is [`Stage::Warping`].
     ///
     /// # Errors
     /// [`Error::Canceled`].
@@ -51,9 +51,9 @@ impl PixelMap {
         })
     }
 
-    /// The map of a homography, `out ~ H source`. The one stage is [`Stage::Warping`].
+    /// Creates the map of a homography, `out ~ H source`. The only stage is [`Stage::Warping`].
     ///
-    /// * `out_from_source`: H, pixels to pixels, any scale
+    /// * `out_from_source`: H at any scale, pixels to pixels
     ///
     /// # Errors
     /// [`Error::NotFinite`] or [`Error::Degenerate`] if H has no inverse, [`Error::Canceled`].
@@ -97,17 +97,17 @@ impl PixelMap {
         Self::from_fn(width, height, source, monitor)
     }
 
-    /// Columns of the result.
+    /// Returns the number of columns of the result.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows of the result.
+    /// Returns the number of rows of the result.
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// The place in the source that (u, v) of the result is read from.
+    /// Returns the source position for (u, v) of the result.
     pub fn source(&self, u: u32, v: u32) -> Option<Point2<f64>> {
         if u >= self.width || v >= self.height {
             return None;
@@ -117,7 +117,7 @@ impl PixelMap {
             .then(|| Point2::new(f64::from(x), f64::from(y)))
     }
 
-    /// The redrawn image, bilinear, 0 where nothing is read. The one stage is [`Stage::Warping`].
+    /// Warps an image, bilinearly, 0 where nothing is read. The only stage is [`Stage::Warping`].
     ///
     /// # Errors
     /// [`Error::Canceled`].
@@ -152,7 +152,7 @@ impl PixelMap {
         Ok(image.expect("every channel of every pixel of the map"))
     }
 
-    /// 255 where a picture of the given size is read, 0 elsewhere.
+    /// Returns 255 where an image of the given size is read, 0 elsewhere.
     pub fn mask(&self, source_width: u32, source_height: u32) -> GrayImage {
         let size = (source_width, source_height);
         let is_read = |place: &[f32; 2]| Corners::around(place, size).is_some();
@@ -163,7 +163,7 @@ impl PixelMap {
     }
 }
 
-/// Four neighboring pixels, and a place between them.
+/// Four neighboring pixels, and a position between them.
 struct Corners {
     /// Indices row by row: top left, top right, bottom left, bottom right.
     pixels: [usize; 4],
@@ -172,12 +172,12 @@ struct Corners {
 }
 
 impl Corners {
-    /// The pixels of a source of the given size around a place; none outside its outermost pixel
-    /// centers.
+    /// Returns the pixels around a position in a source of the given size; `None` outside its
+    /// outermost pixel centers.
     fn around(&[x, y]: &[f32; 2], (width, height): (u32, u32)) -> Option<Self> {
         let (last_u, last_v) = (width as f32 - 1.0, height as f32 - 1.0);
         let (columns, rows) = (width as usize, height as usize);
-        // A border place computed with rounding still counts.
+        // Allow for rounding errors at the border.
         let slack = 1e-3;
         // NaN compares as false.
         let inside = x >= -slack && y >= -slack && x <= last_u + slack && y <= last_v + slack;
@@ -193,7 +193,7 @@ impl Corners {
         })
     }
 
-    /// The bilinear value.
+    /// Interpolates bilinearly.
     fn mean(&self, read: impl Fn(usize) -> f32) -> f32 {
         let [p00, p10, p01, p11] = self.pixels.map(read);
         let [a, b] = self.fraction;

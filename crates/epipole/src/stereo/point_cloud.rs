@@ -1,24 +1,24 @@
-//! From disparities to depths and points in space.
+//! Depths and 3D points from disparities.
 
 use super::{DisparityImage, depth_from_disparity};
 use crate::{Error, Result};
 use image::{ImageBuffer, Luma, RgbImage};
 use nalgebra::{Matrix4, Point3, Vector3, Vector4};
 
-/// Points in space, each with a color, a normal and a confidence if there are any.
+/// Points in space, optionally with colors, normals and confidences.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PointCloud {
-    /// In the frame and unit of whatever made them.
+    /// Points in any frame and unit.
     pub points: Vec<Point3<f64>>,
-    /// One a point, or none.
+    /// Colors, one per point, or none.
     pub colors: Vec<[u8; 3]>,
-    /// Unit normals, one a point, or none.
+    /// Unit normals, one per point, or none.
     pub normals: Vec<Vector3<f64>>,
-    /// Numbers of photos that agree on a point, or another measure; one a point, or none.
+    /// Number of images that agree on each point, or another measure; one per point, or none.
     pub confidences: Vec<f32>,
 }
 
-/// The depth of every pixel, `Z = f B / d`, meters; NaN without disparity or where `d <= 0`.
+/// Computes the depth of every pixel, `Z = f B / d`, meters; NaN without disparity or for `d <= 0`.
 ///
 /// * `focal_px`: pixels, > 0; `baseline_m`: meters, > 0
 ///
@@ -40,7 +40,7 @@ pub fn depth_image(
     focal_px: f64,
     baseline_m: f64,
 ) -> Result<ImageBuffer<Luma<f32>, Vec<f32>>> {
-    // Refuses a bad rig even if no pixel has a disparity.
+    // Rejects invalid parameters even if no pixel has a disparity.
     depth_from_disparity(focal_px, baseline_m, 1.0)?;
     let depth = |&d: &f32| {
         if d.is_nan() {
@@ -56,18 +56,18 @@ pub fn depth_image(
     )
 }
 
-/// The points that a rectified pair sees, `(X, Y, Z, W) = Q (u, v, d, 1)`, in the first camera's
+/// Computes the points of a rectified pair, `(X, Y, Z, W) = Q (u, v, d, 1)`, in the first camera's
 /// rectified frame.
 ///
 /// * `q`: as in [`Rectification::q`](super::Rectification::q) or from
 ///   [`q_from_rig`](super::q_from_rig)
-/// * `colors`: the rectified first picture, if the points are to have its colors
+/// * `colors`: the rectified first image, for colored points
 ///
 /// Pixels without disparity, points at infinity and points behind the camera are left out.
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the colors' size is not the disparities', [`Error::NotFinite`] for
-/// a Q with NaN or infinities.
+/// [`Error::SizeMismatch`] if the size of `colors` differs from that of the disparities,
+/// [`Error::NotFinite`] for a Q with NaN or infinities.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

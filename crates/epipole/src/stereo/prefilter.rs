@@ -1,9 +1,9 @@
-//! Filters before block matching: they keep details and remove slow changes of light.
+//! Filters before block matching, which keep details and remove gradual brightness changes.
 
 use crate::math::simd::dispatched;
 use image::GrayImage;
 
-/// Filter of both images before blocks are compared.
+/// Filter of both images before block matching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -11,10 +11,10 @@ use image::GrayImage;
     serde(rename_all = "snake_case")
 )]
 pub enum StereoPrefilter {
-    /// The horizontal Sobel derivative, limited to ± the cap: edges that cross the rows.
+    /// Horizontal Sobel derivative, limited to ± the cap: vertical edges.
     #[default]
     XSobel,
-    /// The difference to the mean of the 9×9 pixels around, limited to ± the cap.
+    /// Difference from the mean of the 9×9 surrounding pixels, limited to ± the cap.
     LocalMean,
 }
 
@@ -22,7 +22,7 @@ pub enum StereoPrefilter {
 const MEAN_RADIUS: usize = 4;
 
 impl StereoPrefilter {
-    /// The filtered image plus `cap`, thus from 0 to 2 cap. Border pixels are repeated outside.
+    /// Returns the filtered image plus `cap`, from 0 to 2 cap. Border pixels are repeated outside.
     pub(super) fn apply(self, image: &GrayImage, cap: u8) -> Vec<u8> {
         match self {
             Self::XSobel => x_sobel(image, cap),

@@ -1,4 +1,4 @@
-//! Two photographs redrawn for a rectified rig, and the disparities that are matched in them.
+//! Images warped by a rectified rig, and their disparities.
 
 use super::{DisparityImage, PixelMap, Rectification, fill_gaps};
 use crate::imaging::rgb_to_gray;
@@ -8,22 +8,22 @@ use crate::{Error, Result};
 use image::{GrayImage, RgbImage};
 use nalgebra::{Point2, Point3, Vector4};
 
-/// So near to the edge of a photograph, pixels of the photograph, answers are not trusted: edges
-/// match each other.
+/// Width of the border of an image, pixels, whose disparities are not trusted: edges match each
+/// other.
 const EDGE_PX: f64 = 6.0;
-/// Fewer points than this say nothing of the range of disparities.
+/// Minimum number of points to determine the range of disparities.
 const MIN_POINTS: usize = 8;
-/// The share of points below and above the range, which may be wrong.
+/// Fraction of points below and above the range, which may be outliers.
 const WRONG: f64 = 0.02;
-/// Surfaces go on where no point is: so much more on either side, pixels and as a share of the
-/// range.
+/// Margin of the range on either side, as surfaces continue beyond the points: pixels, and a
+/// fraction of the range.
 const BEYOND: (f64, f64) = (2.0, 0.15);
 
 impl Rectification {
-    /// The pixel of the first rectified picture that shows a point, and the disparity of the point
-    /// there, pixels. `None` if the point is not in front of the camera.
+    /// Returns the pixel of the first rectified image that shows a point, and the disparity of the
+    /// point, pixels. `None` if the point is not in front of the camera.
     ///
-    /// * `place`: in the frame of the first photograph's camera, in the unit of the baseline
+    /// * `place`: the point in the frame of the first camera, in the unit of the baseline
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -49,13 +49,13 @@ impl Rectification {
         is_finite.then(|| (Point2::new(found[0], found[1]), found[2]))
     }
 
-    /// The smallest and the largest disparity to look for, pixels: those of nearly all points, and
-    /// some more, since surfaces go on where no point is; nothing lies beyond infinity.
+    /// Returns the minimum and maximum disparity to search, pixels: those of nearly all points,
+    /// with a margin, since surfaces continue beyond the points, but not past infinity.
     ///
-    /// * `places`: points that both photographs show, in the frame of the first photograph's camera
+    /// * `places`: points that both images show, in the frame of the first camera
     ///
     /// # Errors
-    /// [`Error::TooFew`] if the first picture shows fewer than eight of them.
+    /// [`Error::TooFew`] if the first image shows fewer than eight of them.
     pub fn disparity_range(&self, places: &[Point3<f64>]) -> Result<[i32; 2]> {
         let sides = [f64::from(self.width), f64::from(self.height)];
         let inside =
@@ -68,7 +68,7 @@ impl Rectification {
     }
 }
 
-/// * `at_infinity`: the disparity of what is infinitely far, pixels
+/// * `at_infinity`: disparity of points at infinity, pixels
 fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
     if disparities.len() < MIN_POINTS {
         return Err(Error::TooFew {
@@ -88,36 +88,35 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
     if high <= at_infinity {
         end = end.min(at_infinity.ceil());
     }
-    // A saturating cast; one disparity alone could not be told from its neighbors.
+    // A saturating cast; a single disparity would have no neighbors.
     let (first, end) = (first as i32, end as i32);
     Ok([first, end.max(first.saturating_add(1))])
 }
 
-/// Two photographs as a rectified rig sees them.
+/// Images of a rig, rectified.
 ///
-/// Zoomed out ([`RectifyOptions::alpha`](super::RectifyOptions::alpha) of 1) the pictures have
-/// borders that no photograph fills. Borders match each other perfectly, so answers there, and
-/// those whose match is there, are taken back. Where one camera stands above the other the pictures
-/// are laid on their side before they are matched.
+/// With [`RectifyOptions::alpha`](super::RectifyOptions::alpha) of 1, the results have empty
+/// borders. Borders match each other perfectly, so disparities there, and those whose match is
+/// there, are removed. For a vertical rig the images are transposed before matching.
 #[derive(Debug, Clone)]
 pub struct RectifiedPair {
     rig: Rectification,
     pictures: [RgbImage; 2],
-    /// Which pixels of the first picture its photograph fills.
+    /// Pixels of the first result with image content.
     shown: Vec<bool>,
-    /// Which pixels of each picture its photograph fills, and not only just.
+    /// Pixels of each result with image content, at some distance from its edge.
     trusted: [Vec<bool>; 2],
 }
 
 impl RectifiedPair {
-    /// Redraws two photographs.
+    /// Rectifies two images.
     ///
-    /// * `photographs`: of the sizes that the rig's intrinsics are for, pixels
+    /// * `photographs`: images with the sizes of the rig's intrinsics, pixels
     ///
-    /// The one stage is [`Stage::Warping`](crate::progress::Stage::Warping).
+    /// The only stage is [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
     /// # Errors
-    /// [`Error::SizeMismatch`] for photographs of different size, [`Error::Canceled`].
+    /// [`Error::SizeMismatch`] for images of different size, [`Error::Canceled`].
     pub fn new(
         rig: &Rectification,
         photographs: [&RgbImage; 2],
@@ -157,23 +156,24 @@ impl RectifiedPair {
         })
     }
 
-    /// The redrawn photographs, black where they fill nothing.
+    /// Returns the rectified images, black outside the image content.
     pub fn pictures(&self) -> &[RgbImage; 2] {
         &self.pictures
     }
 
-    /// Number of pixels of the first image that its photograph fills.
+    /// Returns the number of pixels of the first result with image content.
     pub fn num_shown(&self) -> usize {
         self.shown.iter().filter(|is_shown| **is_shown).count()
     }
 
-    /// The disparities of the first picture, pixels, along the columns if the rig is vertical.
+    /// Computes the disparities of the first image, pixels, along the columns if the rig is
+    /// vertical.
     ///
-    /// * `matching`: finds the disparities of two gray pictures whose matches share a row, such as
+    /// * `matching`: matcher of two gray images whose matches share a row, such as
     ///   [`StereoSgm::compute`](super::StereoSgm::compute)
     ///
     /// # Errors
-    /// Those of `matching`.
+    /// As `matching`.
     pub fn disparity(
         &self,
         matching: impl FnOnce(&GrayImage, &GrayImage) -> Result<DisparityImage>,
@@ -184,7 +184,7 @@ impl RectifiedPair {
         Ok(self.kept(&found, |index, disparity| self.is_within(index, disparity)))
     }
 
-    /// The same with an answer for every pixel that the photograph fills, as [`fill_gaps`] with its
+    /// Computes disparities for every pixel with image content, by [`fill_gaps`] and with its
     /// stage.
     ///
     /// # Errors
@@ -199,7 +199,7 @@ impl RectifiedPair {
         Ok(self.kept(&filled, |index, _| self.shown[index]))
     }
 
-    /// Whether a pixel of the first picture and its match are both what photographs show.
+    /// Returns whether a pixel of the first image and its match both have image content.
     fn is_within(&self, index: usize, disparity: f32) -> bool {
         let (width, height) = (i64::from(self.rig.width), i64::from(self.rig.height));
         let (u, v) = (index as i64 % width, index as i64 / width);
@@ -222,7 +222,7 @@ impl RectifiedPair {
         kept
     }
 
-    /// A picture whose matches share a row.
+    /// Transposes an image of a vertical rig, so that its matches share a row.
     fn along_rows(&self, picture: &GrayImage) -> GrayImage {
         match self.rig.is_vertical {
             true => GrayImage::from_fn(picture.height(), picture.width(), |u, v| {
@@ -232,7 +232,7 @@ impl RectifiedPair {
         }
     }
 
-    /// From pictures as they stand to those whose matches share a row, or back.
+    /// Transposes disparities of a vertical rig, in either direction.
     fn turned(&self, disparity: &DisparityImage) -> DisparityImage {
         match self.rig.is_vertical {
             true => disparity.transposed(),
@@ -241,8 +241,8 @@ impl RectifiedPair {
     }
 }
 
-/// Which pixels of a rectified picture are read from a photograph of this size, so far from its
-/// edge.
+/// Returns which pixels of a rectified image are read from an image of this size, at least this far
+/// from its edge.
 fn filled(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool> {
     let inside = |at: f64, side: u32| (edge_px..=f64::from(side) - 1.0 - edge_px).contains(&at);
     let is_filled = |(u, v)| {
@@ -265,7 +265,8 @@ mod tests {
             (33..=39).contains(&low) && (61..=67).contains(&high),
             "{low} {high}"
         );
-        // One wrong point does not widen it, and the other side of infinity is never looked at.
+        // A single outlier does not widen the range, and disparities past infinity are not
+        // searched.
         let mut with_outlier = disparities.clone();
         with_outlier.push(4000.0);
         assert_eq!(range_of(with_outlier, 0.0).unwrap(), [low, high]);

@@ -8,33 +8,32 @@ use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 /// Homographies that put matches into the same row (or, if `is_vertical`, column).
 #[derive(Debug, Clone, PartialEq)]
 pub struct UncalibratedRectification {
-    /// From pixels of each photograph to rectified pixels.
+    /// Homographies from pixels of each image to rectified pixels.
     pub homographies: [Matrix3<f64>; 2],
     /// Whether matches share a column instead of a row.
     pub is_vertical: bool,
-    /// The smallest and the largest disparity among the matches, pixels: `u1 − u2`, or `v1 − v2`
-    /// if vertical. Either sign, since the depths are known only up to a projective map.
+    /// Minimum and maximum disparity of the matches, pixels: `u1 − u2`, or `v1 − v2` if vertical.
+    /// Of either sign, since the depths are known only up to a projective map.
     pub disparity_range_px: (f64, f64),
-    /// The smallest rectangle around each rectified photograph.
+    /// Bounding rectangle of each rectified image.
     pub outlines: [PixelRect; 2],
 }
 
 /// Rectifies a pair from its fundamental matrix and matches (Hartley's method).
 ///
-/// The second photograph is turned about its middle until its epipole lies along the rows (the
-/// columns, if that is nearer), by at most 45°, and the epipole is sent to infinity. The first
-/// photograph takes the matching homography, sheared so that `Σ (u1 − u2)²` over the matches is
-/// least.
+/// The second image is rotated about its middle until its epipole is in the direction of the rows
+/// (or of the columns, if closer), by at most 45°, and the epipole is sent to infinity. The first
+/// image gets the matching homography, sheared to minimize `Σ (u1 − u2)²` over the matches.
 ///
 /// * `fundamental`: `x2ᵀ F x1 = 0`
 /// * `pixels1`, `pixels2`: matches, inliers of F, at least 3
-/// * `width`, `height`: of both photographs, pixels
+/// * `width`, `height`: size of both images, pixels
 ///
 /// # Errors
-/// [`Error::Degenerate`] if an epipole lies in its photograph or so near that the warp would
-/// turn it inside out, F has rank 1 or 0, or all matches lie on one line;
-/// [`Error::SizeMismatch`] for lists of different length, [`Error::TooFew`] for fewer than 3
-/// matches, [`Error::NotFinite`] for NaN or infinities.
+/// [`Error::Degenerate`] if an epipole lies in its image or so close that the warp would turn it
+/// inside out, F has rank 1 or 0, or all matches lie on one line; [`Error::SizeMismatch`] for lists
+/// of different length, [`Error::TooFew`] for fewer than 3 matches, [`Error::NotFinite`] for NaN or
+/// infinities.
 ///
 /// Source: Hartley 1999, "Theory and practice of projective rectification"; Hartley & Zisserman
 /// 2004, §11.12.
@@ -43,7 +42,7 @@ pub struct UncalibratedRectification {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::stereo::rectify_uncalibrated;
 /// use nalgebra::{Matrix3, Point2};
-/// // A rectified pair already, but the second picture hangs 5 pixels lower: v2 = v1 + 5.
+/// // Already a rectified pair, but the second image is 5 pixels lower: v2 = v1 + 5.
 /// let f = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 5.0);
 /// let pixels1 = [(30.0, 20.0), (60.0, 70.0), (90.0, 40.0)].map(|(u, v)| Point2::new(u, v));
 /// let pixels2 = pixels1.map(|p| Point2::new(p.x - 8.0, p.y + 5.0));
@@ -126,7 +125,7 @@ fn check(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>], width: u32, height: u
     Ok(())
 }
 
-/// For an epipole nearer to the rows than to the columns.
+/// Rectifies if the epipole is closer to the rows than to the columns.
 fn along_rows(
     fundamental: &Matrix3<f64>,
     pixels1: &[Point2<f64>],
@@ -151,7 +150,7 @@ fn along_rows(
     })
 }
 
-/// H2: near the middle of the photograph a rotation, to first order.
+/// Returns H2: near the middle of the image a rotation, to first order.
 fn send_epipole_to_infinity(
     fundamental: &Matrix3<f64>,
     width: u32,
@@ -172,7 +171,7 @@ fn send_epipole_to_infinity(
         }
         Epipole::AtInfinity(direction) => (direction, 0.0),
     };
-    // To the right or to the left, whichever is nearer: nothing is turned upside down.
+    // To the right or left, whichever is closer: nothing is turned upside down.
     let side = if direction.x < 0.0 { -1.0 } else { 1.0 };
     let (cos, sin) = (side * direction.x, side * direction.y);
     let to_middle = Matrix3::new_translation(&-middle);
@@ -183,7 +182,7 @@ fn send_epipole_to_infinity(
         -sin, cos, 0.0,
         0.0,  0.0, 1.0,
     );
-    // (e, 0, 1) goes to (e, 0, 0) for e = side × distance.
+    // (e, 0, 1) maps to (e, 0, 0) for e = side × distance.
     #[rustfmt::skip]
     let stretch = Matrix3::new(
         1.0,                     0.0, 0.0,
@@ -193,7 +192,7 @@ fn send_epipole_to_infinity(
     Ok(from_middle * stretch * turn * to_middle)
 }
 
-/// H2 M with M = [e2]ₓ F + e2 vᵀ: every match gets its row of the second picture.
+/// Returns H2 M with M = [e2]ₓ F + e2 vᵀ: every match gets its row of the second image.
 fn matching_homography(fundamental: &Matrix3<f64>, h2: &Matrix3<f64>) -> Result<Matrix3<f64>> {
     let degenerate = Error::Degenerate {
         what: "a rectification",
@@ -209,7 +208,7 @@ fn matching_homography(fundamental: &Matrix3<f64>, h2: &Matrix3<f64>) -> Result<
     if scale.is_nan() || scale <= 0.0 {
         return Err(degenerate);
     }
-    // A first row across the other two, as long as the second: no squeezing.
+    // A first row perpendicular to the other two, as long as the second, avoids squeezing.
     let row1 = free * (row2.norm() / scale);
     Ok(Matrix3::from_rows(&[
         row1.transpose(),
@@ -218,7 +217,8 @@ fn matching_homography(fundamental: &Matrix3<f64>, h2: &Matrix3<f64>) -> Result<
     ]))
 }
 
-/// The shear `u → a u + b v + c` that brings the first picture's matches nearest to the second's.
+/// Returns the shear `u → a u + b v + c` that brings the first image's matches closest to the
+/// second's.
 fn shear(
     matching: &Matrix3<f64>,
     h2: &Matrix3<f64>,
@@ -244,7 +244,7 @@ fn shear(
         .then(|| normal.try_inverse())
         .flatten()
         .map(|inverse| inverse * right_side)
-        // A mirrored picture fits no scene.
+        // No scene mirrors an image.
         .filter(|s| s.x.abs() > 1e-9)
         .ok_or(Error::Degenerate {
             what: "a rectification",
@@ -259,7 +259,7 @@ fn shear(
     Ok(shear)
 }
 
-/// The rectangle around a warped photograph.
+/// Returns the bounding rectangle of a warped image.
 fn outline(h: &Matrix3<f64>, width: u32, height: u32) -> Result<PixelRect> {
     let (u, v) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
     let corners = [(0.0, 0.0), (u, 0.0), (0.0, v), (u, v)].map(|(u, v)| Point2::new(u, v));
@@ -362,7 +362,7 @@ mod tests {
                 }
                 assert!(high - low < 200.0);
                 for h in [h1, h2] {
-                    // One pixel right stays right, one down stays down.
+                    // Right stays right, and down stays down.
                     let middle = Point2::new(319.5, 239.5);
                     let at = apply(&h, &middle).unwrap();
                     let right = apply(&h, &(middle + Vector2::x())).unwrap() - at;
@@ -396,7 +396,7 @@ mod tests {
             rectify(&f, &one, &other),
             Err(Error::Degenerate { .. })
         ));
-        // Straight ahead the epipole is in the picture.
+        // Straight ahead the epipole is in the image.
         let (f, pixels1, pixels2) = scene([0.0, 0.0, 0.5], [0.0, 0.0, 5.0]);
         assert!(matches!(
             rectify(&f, &pixels1, &pixels2),

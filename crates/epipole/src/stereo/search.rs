@@ -4,13 +4,13 @@ use super::DisparityImage;
 use crate::{Error, Result};
 use image::{GrayImage, ImageBuffer, Luma};
 
-/// Cells (pixels × disparities) beyond which no volume is begun: the memory would not be there.
+/// Maximum number of cells (pixels × disparities) of a volume, to limit memory.
 #[cfg(target_pointer_width = "64")]
 const MAX_CELLS: usize = 1 << 31;
 #[cfg(not(target_pointer_width = "64"))]
 const MAX_CELLS: usize = 1 << 28;
 
-/// A pair of equal size and its range of disparities, checked.
+/// A validated pair of equal size with its range of disparities.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
     pub(super) left: &'a GrayImage,
@@ -19,7 +19,7 @@ pub(super) struct Search<'a> {
     pub(super) height: usize,
     pub(super) min_disparity: i32,
     pub(super) num_disparities: usize,
-    /// The disparities of one pixel rounded up to a multiple of 16.
+    /// The number of disparities of one pixel, rounded up to a multiple of 16.
     pub(super) num_cells: usize,
 }
 
@@ -79,7 +79,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Refuses a search whose volume of costs would not fit in memory.
+    /// Rejects a search whose cost volume would not fit in memory.
     pub(super) fn check_volume(&self) -> Result<usize> {
         self.width
             .checked_mul(self.height)
@@ -92,13 +92,13 @@ impl<'a> Search<'a> {
             })
     }
 
-    /// Row v of an image of the pair's size.
+    /// Returns row v of an image of the pair's size.
     pub(super) fn row_of<'b>(&self, pixels: &'b [u8], v: usize) -> &'b [u8] {
         &pixels[v * self.width..(v + 1) * self.width]
     }
 
-    /// A right row from its end on, so that candidates of increasing disparity lie side by side:
-    /// cell d of column u is at `width − 1 − u + d`. The border repeats outside.
+    /// Reverses a right row, so that candidates of increasing disparity are adjacent: cell d of
+    /// column u is at `width − 1 − u + d`. Border pixels are repeated outside.
     #[inline(always)]
     pub(super) fn reverse(&self, row: &[u8], reversed: &mut [u8]) {
         let (width, len) = (self.width as i64, reversed.len() as i64);
@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The cells of column u whose right pixel lies inside the image.
+    /// Returns the cells of column u whose right pixel lies inside the image.
     pub(super) fn cells_inside(&self, u: usize) -> std::ops::Range<usize> {
         let nearest = u as i64 - i64::from(self.min_disparity);
         let begin = (nearest - self.width as i64 + 1).clamp(0, self.num_disparities as i64);
@@ -133,7 +133,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The pair in eight bits: the values from the smallest to the largest of both become 0…255.
+/// Converts the pair to eight bits: the smallest and largest value of both become 0 and 255.
 ///
 /// # Errors
 /// [`Error::NotFinite`] for NaN or infinities.

@@ -14,7 +14,7 @@ use derive_setters::Setters;
 use image::{GrayImage, ImageBuffer, Luma};
 use std::ops::Range;
 
-/// Number of directions of the paths.
+/// Directions of the paths.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -22,12 +22,12 @@ use std::ops::Range;
     serde(rename_all = "snake_case")
 )]
 pub enum StereoPaths {
-    /// Along the row and the column, both ways.
+    /// Along the row and the column, in both directions.
     Four,
-    /// Along the row both ways and from the three pixels above: the memory of a few rows is
-    /// enough, and one thread works.
+    /// Along the row in both directions and from the three pixels above: takes the memory of only a
+    /// few rows, but runs on one thread.
     Five,
-    /// Along rows, columns and diagonals, both ways.
+    /// Along rows, columns and diagonals, in both directions.
     #[default]
     Eight,
 }
@@ -67,29 +67,29 @@ pub enum StereoPaths {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct StereoSgm {
-    /// The smallest disparity looked for, pixels; negative for cameras that converge.
+    /// Minimum disparity, pixels; negative for cameras that converge.
     pub min_disparity_px: i32,
-    /// Number of disparities, from the smallest on; 1 to 4096.
+    /// Number of disparities from the minimum upwards; 1 to 4096.
     pub num_disparities: u32,
     /// Matching cost.
     pub cost: StereoCost,
-    /// The largest cost of a difference of gray values, 1 to 63.
+    /// Maximum cost of a difference of gray values, 1 to 63.
     pub gray_cap: u8,
     /// Directions.
     pub paths: StereoPaths,
-    /// P1: the penalty for a change of disparity by one between neighbors.
+    /// P1: penalty for a change of disparity by one between neighbors.
     pub small_step_penalty: u8,
-    /// P2: the penalty for a larger change; at least P1, at most 150.
+    /// P2: penalty for a larger change; at least P1, at most 150.
     pub large_step_penalty: u8,
-    /// The difference of gray values between two neighbors that halves P2 (never below P1), since
-    /// the edges of objects are mostly edges of the image. 0: P2 is the same everywhere.
+    /// Difference of gray values between two neighbors that halves P2 (never below P1), since edges
+    /// of objects are mostly edges of the image. 0: P2 is constant.
     pub edge_gray: u8,
-    /// Which answers are kept.
+    /// Filter of the disparities.
     pub filter: DisparityFilter,
 }
 
 impl Default for StereoSgm {
-    /// Disparities 0 to 63, eight paths.
+    /// Returns disparities 0 to 63 and eight paths.
     fn default() -> Self {
         Self {
             min_disparity_px: 0,
@@ -105,17 +105,17 @@ impl Default for StereoSgm {
     }
 }
 
-/// P2 does not fall below this for a step of gray values, or textures would tear surfaces apart.
+/// Minimum P2 at any gray difference; otherwise textures would tear surfaces apart.
 const MIN_LARGE_STEP_PENALTY: u8 = 20;
-/// The cost of a candidate outside the right image: more than a good match, less than a bad one, so
+/// Cost of a candidate outside the right image: more than a good match, less than a bad one, so
 /// that disparities continue beyond the border.
 pub(super) const OUTSIDE_COST: u8 = 12;
 
 impl StereoSgm {
-    /// The disparities of `left`.
+    /// Computes the disparities of `left`.
     ///
     /// * `left`, `right`: a rectified pair, so that matches share a row; equal sizes
-    /// * `monitor`: the one stage is
+    /// * `monitor`: the only stage is
     ///   [`Stage::DenseMatching`](crate::progress::Stage::DenseMatching)
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl StereoSgm {
     }
 }
 
-/// A checked search with its options.
+/// A validated search with its options.
 struct Task<'a> {
     search: Search<'a>,
     options: &'a StereoSgm,
@@ -212,7 +212,7 @@ impl Task<'_> {
         self.search.width * self.search.num_cells
     }
 
-    /// Down the image and along the row both ways, with the memory of a few rows.
+    /// Runs down the image and along the row in both directions, with the memory of a few rows.
     fn five_paths(&self, reporter: &mut Reporter) -> Result<Vec<f32>> {
         let search = self.search;
         let mut cost_rows = self.cost_rows();
@@ -236,11 +236,11 @@ impl Task<'_> {
         Ok(values)
     }
 
-    /// N paths down and N paths up the image.
+    /// Runs N paths down and N paths up the image.
     ///
     /// Both sweeps first go to the middle and store their sums. Then each continues through the
     /// other's half, where the sums are now complete. So one volume serves two threads, and the
-    /// result is the same with one.
+    /// result is the same with one thread.
     fn both_ways<const N: usize>(&self, monitor: &mut dyn Monitor) -> Result<Vec<f32>> {
         let search = self.search;
         let num_cells = search.check_volume()?;
@@ -273,7 +273,7 @@ impl Task<'_> {
     }
 }
 
-/// Data that one sweep leaves for the other: costs, and the means of N path costs, each rows ×
+/// Data that one sweep stores for the other: costs, and the means of N path costs, each rows ×
 /// width × `num_cells`.
 struct Volume {
     costs: Vec<u8>,
@@ -297,7 +297,7 @@ impl Volume {
     }
 }
 
-/// Some rows of a [`Volume`].
+/// Part of a [`Volume`] with some rows.
 struct VolumePart<'a> {
     costs: &'a mut [u8],
     means: &'a mut [u8],
@@ -324,7 +324,8 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
         }
     }
 
-    /// The rows of a range in the order of the sweep: how many went before, and which.
+    /// Iterates over the rows of a range in the order of the sweep: the number of preceding rows,
+    /// and the row.
     fn visits(&self, rows: &Range<usize>) -> impl Iterator<Item = (usize, usize)> + use<N> {
         let (rows, upward) = (rows.clone(), self.upward);
         (0..rows.len()).map(move |i| {
@@ -337,7 +338,7 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
         })
     }
 
-    /// The first half of the sweep: keeps costs and path costs.
+    /// Runs the first half of the sweep: stores costs and path costs.
     fn store(
         &mut self,
         rows: Range<usize>,
@@ -357,7 +358,7 @@ impl<'a, const N: usize> HalfSweep<'a, N> {
         Ok(())
     }
 
-    /// The second half: adds to the other sweep's sums, and selects.
+    /// Runs the second half: adds to the other sweep's sums, and selects disparities.
     fn complete(
         &mut self,
         rows: Range<usize>,

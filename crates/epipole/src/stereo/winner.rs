@@ -1,19 +1,18 @@
-//! The best disparity of each pixel of a row, from the sums of costs, and whether to believe it.
+//! Selection of the best disparity of each pixel of a row from the cost sums, with validity tests.
 
 use super::filter::DisparityFilter;
 use super::search::Search;
 use crate::math::simd::dispatched;
 
-/// Selects the answers row by row.
+/// Selector of disparities, row by row.
 pub(super) struct Selector<'a> {
     search: Search<'a>,
     filter: DisparityFilter,
-    /// The best disparity of each left pixel, from the smallest looked for.
+    /// Best disparity of each left pixel, relative to the minimum.
     winners: Vec<i16>,
-    /// The fraction beside the winner; NaN where it is not unique.
+    /// Sub-pixel offset from the winner; NaN if it is not unique.
     offsets: Vec<f32>,
-    /// The best sum of each right pixel and its disparity, from the row's end on; empty without
-    /// a left–right test.
+    /// Best sum of each right pixel and its disparity, in reverse; empty without a left–right test.
     right_sums: Vec<i16>,
     right_winners: Vec<i16>,
 }
@@ -35,7 +34,7 @@ impl<'a> Selector<'a> {
     }
 
     /// * `sums`: width × `num_cells`; those beyond the last disparity are overwritten
-    /// * `disparities`: the row's answers, NaN for none
+    /// * `disparities`: disparities of the row, NaN if invalid
     pub(super) fn row(&mut self, sums: &mut [i16], disparities: &mut [f32]) {
         let (n, count) = (self.search.num_cells, self.search.num_disparities);
         if count < n {
@@ -66,7 +65,7 @@ impl<'a> Selector<'a> {
         }
     }
 
-    /// The right pixel, on either side of the sub-pixel answer, sees it from its side too.
+    /// Returns whether a right pixel on either side of the sub-pixel match agrees.
     #[inline(always)]
     fn is_mutual(&self, u: usize, winner: usize, offset: f32) -> bool {
         let Some(max) = self.filter.left_right_max_px else {
@@ -88,7 +87,7 @@ impl<'a> Selector<'a> {
 }
 
 dispatched! {
-    /// The winner of each pixel and its fraction, and the winners seen from the right.
+    /// Finds the winner of each pixel with its offset, and the winners from the right.
     fn find_winners(
         num_cells: usize,
         uniqueness_percent: i32,
@@ -120,7 +119,7 @@ dispatched! {
     }
 }
 
-/// No other disparity, apart from the winner's neighbors, comes within this percentage.
+/// Returns whether no disparity, apart from the winner's neighbors, comes within this percentage.
 #[inline(always)]
 fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
     if percent == 0 {
@@ -136,7 +135,7 @@ fn is_unique(cells: &[i16], best: i16, winner: usize, percent: i32) -> bool {
     below as usize <= expected
 }
 
-/// Replaces the best sums and their places by smaller ones.
+/// Replaces the best sums and their indices by smaller ones.
 #[inline(always)]
 fn keep_smaller(sums: &[i16], best: &mut [i16], places: &mut [i16]) {
     let n = sums.len();
@@ -148,7 +147,7 @@ fn keep_smaller(sums: &[i16], best: &mut [i16], places: &mut [i16]) {
     }
 }
 
-/// The smallest sum and its first place.
+/// Returns the smallest sum and its first index.
 #[inline(always)]
 fn minimum(cells: &[i16]) -> (i16, usize) {
     let mut lowest = i16::MAX;
@@ -162,9 +161,9 @@ fn minimum(cells: &[i16]) -> (i16, usize) {
     (lowest, place as usize)
 }
 
-/// Offset of the true minimum from the winner, −½ to ½: the intersection of two lines of opposite
-/// slope through the winner and its neighbors. Sums of absolute differences and of bits are wedges
-/// of this kind; a parabola would bias fractions towards integers.
+/// Returns the offset of the true minimum from the winner, −½ to ½: the intersection of two lines
+/// of opposite slope through the winner and its neighbors. Sums of absolute differences and Hamming
+/// distances are V-shaped; a parabola would bias offsets towards integers.
 ///
 /// Source: Shimizu & Okutomi 2001, "Precise sub-pixel estimation on area-based matching".
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! Dividing work between threads, telling how far it is, and stopping it.
+//! Distribution of work between threads, with progress and cancellation.
 
 use crate::Result;
 use crate::math::monitored::Reporter;
@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 
 const STAGE: Stage = Stage::DenseMatching;
 
-/// Work for one thread.
+/// Runs work on one thread.
 pub(super) fn alone<T>(
     monitor: &mut dyn Monitor,
     work: impl FnOnce(&mut Reporter) -> Result<T>,
@@ -21,7 +21,7 @@ pub(super) fn alone<T>(
     ))
 }
 
-/// Two pieces of work that do not depend on each other, side by side where there are threads.
+/// Runs two independent pieces of work in parallel, if threads are available.
 pub(super) fn in_two(
     monitor: &mut dyn Monitor,
     shares: Range<f32>,
@@ -68,7 +68,7 @@ pub(super) fn in_two(
 pub(super) struct Strips {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// A strip of fewer rows is not worth a thread.
+    /// Minimum number of rows of a strip to be worth a thread.
     pub(super) least_rows: usize,
 }
 

@@ -1,9 +1,9 @@
-//! Sizes and numbers that a rectification refuses.
+//! Checks of sizes and numbers for rectification.
 
 use crate::camera::Camera;
 use crate::{Error, Result};
 
-/// The size that the photographs of both cameras have.
+/// Returns the common image size of both cameras.
 pub(super) fn common_size([first, second]: &[Camera; 2]) -> Result<(u32, u32)> {
     for (what, first, second) in [
         (

@@ -1,4 +1,4 @@
-//! The part of both photographs that is shown, and the zoom that follows from it.
+//! Visible part of both images, and the resulting zoom.
 
 use super::outline::Outline;
 use super::rect::PixelRect;
@@ -6,16 +6,16 @@ use super::slanted::inscribed;
 use crate::{Error, Result};
 use nalgebra::Vector2;
 
-/// Maximum extra magnification of the results, to keep principal points in the middle and the
-/// content reaching from side to side.
+/// Maximum extra magnification for keeping principal points in the middle and the content reaching
+/// from side to side.
 pub(super) const LARGEST_CROP: f64 = 2.0;
 
-/// A focal length and the principal points that go with it.
+/// A focal length and its principal points.
 pub(super) type Framing = (f64, [Vector2<f64>; 2]);
 
-/// Keeps the principal points where they show the middles of the photographs, and scales the focal
-/// length, `focal_px` at first, to show the part that alpha asks for. `None` if a principal point
-/// is outside the visible or covered part.
+/// Keeps the principal points where they show the middles of the images, and scales the focal
+/// length, initially `focal_px`, to the visible part given by alpha. `None` if a principal point is
+/// outside the visible or covered part.
 pub(super) fn around_principal_points(
     outlines: &[Outline; 2],
     centers: &[Vector2<f64>; 2],
@@ -52,17 +52,17 @@ pub(super) fn around_principal_points(
 /// A framing of the rectified pair, and the part of it that each camera covers.
 pub(super) struct Shown {
     pub(super) framing: Framing,
-    /// For each photograph, a rectangle inside of it, in units of the focal length.
+    /// For each image, a rectangle inside it, in units of the focal length.
     pub(super) inner: [PixelRect; 2],
 }
 
-/// Shows the middle of the cameras' coverage, wherever the principal points come to lie: for a
-/// baseline far from the image plane they are outside of the results.
+/// Shows the middle of the cameras' coverage, wherever the principal points are: for a baseline far
+/// from the image plane they are outside the results.
 ///
-/// * `inner`: rectangles inside the photographs
+/// * `inner`: rectangles inside the images
 /// * `is_shared`: whether both results show the same part along x, and along y
 ///
-/// `None` if the rectangles have nothing in common.
+/// `None` if the rectangles do not overlap.
 fn around_rectangles(
     inner: &[PixelRect; 2],
     outlines: &[Outline; 2],
@@ -97,13 +97,13 @@ fn around_rectangles(
     Some((focal_px, middles.map(|seen| middle - seen * focal_px)))
 }
 
-/// Frames the cameras' coverage: between the innermost points of the photographs' sides, or, for
-/// slanted photographs, in a rectangle that leaves parts of the sides out.
+/// Frames the cameras' coverage: between the innermost points of the images' sides, or, for slanted
+/// images, in a rectangle that cuts off parts of the sides.
 ///
 /// * `is_shared`: whether both results show the same part along x, and along y
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the cameras cover nothing in common.
+/// [`Error::Degenerate`] if the cameras' coverages do not overlap.
 pub(super) fn around_what_is_seen(
     outlines: &[Outline; 2],
     is_shared: [bool; 2],

@@ -1,4 +1,4 @@
-//! Calibrated rectification: both pictures redrawn as if the cameras stood parallel.
+//! Calibrated rectification: warps both images as if the cameras were parallel.
 
 mod checks;
 mod cover;

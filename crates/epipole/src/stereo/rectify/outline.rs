@@ -1,4 +1,4 @@
-//! The outline of a photograph once it is rectified.
+//! Outline of a rectified image.
 
 use super::rect::PixelRect;
 use crate::camera::{Camera, Lens};
@@ -6,11 +6,11 @@ use crate::{Error, Result};
 use nalgebra::{Point2, Rotation3, Vector2, Vector3};
 
 /// Maximum angle of rays to the axis in a rectified image, degrees: at 80° it extends 5.7 focal
-/// lengths, and soon it would be infinite.
+/// lengths, and soon beyond it would be infinite.
 const WIDEST_DEG: f64 = 80.0;
 
-/// Minimum reach of the lens model from the middle to the border, as a share, for a rectified image
-/// to be worth it.
+/// Minimum range of the lens model, relative to the distance from the middle to the border, for
+/// rectification to be useful.
 const LEAST_SEEN: f64 = 0.5;
 
 const FOLDS: Error = Error::Degenerate {
@@ -19,20 +19,20 @@ const FOLDS: Error = Error::Degenerate {
           edges, or with another model of the lens",
 };
 
-/// Area of a photograph in the rectified frame, in units of the focal length.
+/// Area of an image in the rectified frame, in units of the focal length.
 pub(crate) struct Outline {
-    /// The rectangle between the innermost points of the four sides; for a slanted photograph it
-    /// may be empty, its end before its begin.
+    /// Rectangle between the innermost points of the four sides; for a slanted image it may be
+    /// empty, its end before its begin.
     pub(crate) inner: PixelRect,
-    /// The smallest rectangle around.
+    /// Bounding rectangle.
     pub(crate) outer: PixelRect,
-    /// Points of its border, one after the other, all around.
+    /// Points along the whole border, in order.
     pub(super) border: Vec<Vector2<f64>>,
-    /// The mean of the photograph's corners.
+    /// Mean of the image's corners.
     pub(crate) center: Vector2<f64>,
 }
 
-/// Follows the photograph's border.
+/// Traces the border of an image.
 ///
 /// * `place`: position of a border pixel in the rectified image, in units of the focal length
 pub(crate) fn outline(
@@ -80,7 +80,7 @@ pub(crate) fn outline(
         place(last_u, last_v)?,
     ];
     let center = corners.iter().sum::<Vector2<f64>>() / 4.0;
-    // Clockwise: the lower side runs back, and so does the left one.
+    // Clockwise: the lower and left sides are reversed.
     sides[2].reverse();
     sides[3].reverse();
     Ok(Outline {
@@ -91,13 +91,12 @@ pub(crate) fn outline(
     })
 }
 
-/// The ray to a pixel, or, if the lens model folds on the way to it, to the last pixel before the
-/// fold: a model fitted to marks in the middle often maps the very corners to no ray, and there is
-/// none around the circle of a fisheye.
+/// Returns the ray of a pixel, or, if the lens model folds on the way to it, of the last pixel
+/// before the fold: a model fitted to marks in the middle often has no rays at the very corners,
+/// nor does a fisheye outside its circle.
 ///
 /// # Errors
-/// `folds`, if the model folds less than half-way to the pixel; as [`Lens::ray`] for other
-/// failures.
+/// `folds`, if the model folds less than halfway to the pixel; as [`Lens::ray`] for other failures.
 pub(crate) fn farthest_ray(
     camera: &Camera,
     pixel: &Point2<f64>,
@@ -124,8 +123,8 @@ pub(crate) fn farthest_ray(
     Ok(ray)
 }
 
-/// Intersection of a ray with the image plane at distance 1. `Err` for a ray more than
-/// [`WIDEST_DEG`] off the axis: the point in the same direction at that limit.
+/// Intersects a ray with the image plane at distance 1. `Err` for a ray more than [`WIDEST_DEG`]
+/// off the axis: the point in the same direction at that limit.
 pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vector2<f64>> {
     let (widest, across) = (libm::tan(WIDEST_DEG.to_radians()), ray.xy().norm());
     match across <= widest * ray.z {
@@ -134,7 +133,7 @@ pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vec
     }
 }
 
-/// The outline of a photograph with rotated rays.
+/// Returns the outline of an image with rotated rays.
 pub(super) fn turned_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) -> Result<Outline> {
     outline(camera.width, camera.height, |u, v| {
         let pixel = Point2::new(u, v);

@@ -1,13 +1,12 @@
-//! The matrix that takes pixels with disparities to points.
+//! Matrix from pixels with disparities to points.
 
 use crate::{Error, Result};
 use nalgebra::{Matrix4, Vector2};
 
-/// Q of a parallel rig.
+/// Returns Q of a parallel rig.
 ///
-/// * `translation`: the coordinate of t along the baseline's axis; −B for a second camera to the
-///   right
-/// * `offset_px`: the difference of the principal points along it
+/// * `translation`: coordinate of t along the baseline's axis; −B for a second camera to the right
+/// * `offset_px`: difference of the principal points along it
 #[rustfmt::skip]
 pub(super) fn q_matrix(focal_px: f64, center: &Vector2<f64>, translation: f64, offset_px: f64) -> Matrix4<f64> {
     Matrix4::new(
@@ -18,11 +17,11 @@ pub(super) fn q_matrix(focal_px: f64, center: &Vector2<f64>, translation: f64, o
     )
 }
 
-/// Q of a rectified pair with a focal length and principal point in common:
-/// `X = (u − cu) B/d`, `Y = (v − cv) B/d`, `Z = f B/d`.
+/// Returns Q of a rectified pair with a common focal length and principal point: `X = (u − cu)
+/// B/d`, `Y = (v − cv) B/d`, `Z = f B/d`.
 ///
 /// * `focal_px`: pixels, > 0; `baseline_m`: meters, > 0
-/// * `cu_px`, `cv_px`: the principal point, pixels
+/// * `cu_px`, `cv_px`: principal point, pixels
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a focal length or baseline ≤ 0, [`Error::NotFinite`] for NaN or

@@ -25,7 +25,7 @@ impl PixelRect {
         }
     }
 
-    /// From where to where it reaches along x (0) or y (1).
+    /// Returns the range along x (0) or y (1).
     pub(super) fn range(&self, axis: usize) -> [f64; 2] {
         [[self.u_min, self.u_max], [self.v_min, self.v_max]][axis]
     }

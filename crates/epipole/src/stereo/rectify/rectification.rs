@@ -8,36 +8,35 @@ use crate::progress::Monitor;
 use crate::stereo::PixelMap;
 use nalgebra::{Matrix3, Matrix4, Point2, Rotation3};
 
-/// A rectified rig: two virtual cameras that stand parallel and share a focal length, so that
-/// matches share a row (or, if `is_vertical`, a column).
+/// A rectified rig: two parallel virtual cameras with a common focal length, so that matches share
+/// a row (or, if `is_vertical`, a column).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rectification {
-    /// The photographs' cameras.
+    /// Cameras of the original images.
     pub cameras: [Camera; 2],
     /// Rotation of each camera's rays into the rectified frame.
     pub rect_from_cam: [Rotation3<f64>; 2],
-    /// Intrinsics of the rectified pictures.
+    /// Intrinsics of the rectified images.
     pub intrinsics: [Intrinsics; 2],
-    /// Homography from undistorted pixels of each photograph to rectified pixels,
-    /// `H = K_rect R K⁻¹`.
+    /// Homography from undistorted pixels of each image to rectified pixels, `H = K_rect R K⁻¹`.
     pub homographies: [Matrix3<f64>; 2],
-    /// `(X, Y, Z, W) = Q (u, v, d, 1)` in the rectified frame of the first camera, where (u, v)
-    /// is a pixel of the first picture and d its disparity `u1 − u2` (`v1 − v2` if vertical).
+    /// `(X, Y, Z, W) = Q (u, v, d, 1)` in the rectified frame of the first camera, where (u, v) is
+    /// a pixel of the first image and d its disparity `u1 − u2` (`v1 − v2` if vertical).
     pub q: Matrix4<f64>,
-    /// Whether the second camera stands above or below the first: then matches share a column.
+    /// Whether the second camera is above or below the first: then matches share a column.
     pub is_vertical: bool,
     /// Distance between the cameras, meters.
     pub baseline_m: f64,
-    /// Size of the rectified pictures, pixels.
+    /// Width of the rectified images, pixels.
     pub width: u32,
-    /// See `width`.
+    /// Height of the rectified images, pixels.
     pub height: u32,
-    /// A large rectangle in each rectified picture that its camera saw whole.
+    /// A large rectangle in each rectified image that is completely covered.
     pub valid: [PixelRect; 2],
 }
 
 impl Rectification {
-    /// Position in the rectified image of `pixel` of photograph 0 or 1.
+    /// Maps `pixel` of image 0 or 1 to the rectified image.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1,
@@ -49,8 +48,8 @@ impl Rectification {
         self.intrinsics[i].project(&turned.into())
     }
 
-    /// The place in photograph 0 or 1 that a rectified pixel is read from: rotation and lens in
-    /// one step. None where the camera could not see it.
+    /// Returns the position in image 0 or 1 for a rectified pixel, with rotation and lens in one
+    /// step. `None` if the camera does not see it.
     ///
     /// # Errors
     /// [`Error::OutOfRange`](crate::Error::OutOfRange) unless `index` is 0 or 1.
@@ -62,14 +61,14 @@ impl Rectification {
         let i = checked_index(index)?;
         let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
         let camera = &self.cameras[i];
-        // Beyond its fold the lens model shows the same place twice.
+        // Beyond its fold the lens model would show the same content again.
         if !camera.lens.is_seen(&ray) {
             return Ok(None);
         }
         Ok(camera.project(&ray.into()).ok())
     }
 
-    /// The map that redraws photograph 0 or 1. The one stage is
+    /// Returns the map that rectifies image 0 or 1. The only stage is
     /// [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
     /// # Errors

@@ -12,7 +12,7 @@ use crate::camera::{Camera, Intrinsics, RigidTransform};
 use derive_setters::Setters;
 use nalgebra::Vector2;
 
-/// Choices of [`rectify_calibrated`].
+/// Options of [`rectify_calibrated`].
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -22,18 +22,18 @@ use nalgebra::Vector2;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct RectifyOptions {
-    /// 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until
-    /// every pixel of the photographs is shown. Between: in between.
+    /// Zoom. 0: zoomed in until the camera covers every pixel of the results. 1: zoomed out until
+    /// every pixel of the images is visible. Values between interpolate.
     pub alpha: f64,
-    /// Size of the results, pixels; none: that of the photographs.
+    /// Size of the results, pixels; `None` for that of the images.
     pub size: Option<(u32, u32)>,
     /// Whether both results have the same principal point, so that points at infinity have
-    /// disparity 0. Otherwise each shows what its own camera sees best.
+    /// disparity 0. Otherwise each is centered on the view of its own camera.
     pub zero_disparity_at_infinity: bool,
 }
 
 impl Default for RectifyOptions {
-    /// Only valid pixels, the photographs' size, disparity 0 at infinity.
+    /// Returns options for only valid pixels, the images' size, and disparity 0 at infinity.
     fn default() -> Self {
         Self {
             alpha: 0.0,
@@ -45,25 +45,23 @@ impl Default for RectifyOptions {
 
 /// Rectifies a calibrated rig.
 ///
-/// Each camera turns by half of the rotation between them, so both pictures suffer equally; then
-/// both turn, by the smallest angle, until the baseline lies along the rows (or along the
-/// columns, if the second camera stands rather above or below). The smallest angle never turns a
-/// picture upside down: a second camera on the left gives negative disparities instead.
+/// Each camera is rotated by half of the rotation between them, so both images are distorted
+/// equally; then both are rotated, by the smallest angle, until the baseline is along the rows (or
+/// the columns, if the second camera is more above or below than beside). The smallest angle never
+/// turns an image upside down: a second camera on the left gives negative disparities instead.
 ///
-/// * `cameras`: of the first (left) and second (right) photograph, of the same size
+/// * `cameras`: cameras of the first (left) and second (right) image, of the same size
 /// * `cam2_from_cam1`: `x2 = R x1 + t`, meters
 ///
 /// # Errors
-/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras stand at one place; if the
-/// baseline is more than 60° off the image plane halfway between the cameras, whichever way it
-/// slants in it; and if a pixel of a photograph looks along the baseline, which with a baseline θ
-/// off that plane it does as soon as the photographs reach 90° − θ from their middle: no common
-/// image plane sees all of it. A fisheye may: of what it sees farther than 80° from the results'
-/// middle, nothing is shown. [`Error::SizeMismatch`](crate::Error::SizeMismatch) for photographs
-/// that differ in size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1
-/// or an empty size. [`Error::Degenerate`](crate::Error::Degenerate), too, if a lens model folds
-/// less than half-way to the photograph's border; what lies beyond a fold nearer to it is not
-/// shown.
+/// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras are at the same place; if the
+/// baseline is more than 60° off the image plane halfway between the cameras, in any direction; if
+/// a pixel looks along the baseline, since no common image plane then sees the whole image (with a
+/// baseline θ off that plane, images must stay within 90° − θ of their middle); or if a lens model
+/// folds less than halfway to the image's border. Content beyond a fold closer to the border is not
+/// shown, nor is content of a fisheye farther than 80° from the results' middle.
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for images that differ in size,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an empty size.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
 /// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
@@ -72,7 +70,7 @@ impl Default for RectifyOptions {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Camera, Intrinsics, RigidTransform};
 /// use epipole::stereo::{RectifyOptions, rectify_calibrated};
-/// // Two ideal cameras that stand parallel, 0.1 m apart: nothing needs to change.
+/// // Two ideal parallel cameras, 0.1 m apart: nothing needs to change.
 /// let camera = Camera::pinhole(Intrinsics::centered(500.0, 640, 480)?, 640, 480);
 /// let cam2_from_cam1 = RigidTransform::translation(-0.1, 0.0, 0.0);
 /// let rig = rectify_calibrated(&[camera, camera], &cam2_from_cam1, &RectifyOptions::default())?;
@@ -93,7 +91,7 @@ pub fn rectify_calibrated(
     let turned = turn_parallel(cam2_from_cam1)?;
     let rect_from_cam = turned.rect_from_cam;
 
-    // A focal length to begin with; the zoom follows.
+    // An initial focal length; the zoom follows.
     let focal_px = cameras
         .iter()
         .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
@@ -104,7 +102,7 @@ pub fn rectify_calibrated(
 
     let new_size = Vector2::new(f64::from(new_width), f64::from(new_height));
     let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
-    // The direction that each photograph's middle looks to, seen in the result's middle.
+    // The viewing direction of each image's middle is shown in the result's middle.
     let mut centers = outlines.each_ref().map(|o| middle - o.center * focal_px);
     let mean = (centers[0] + centers[1]) / 2.0;
     if options.zero_disparity_at_infinity {
@@ -117,8 +115,7 @@ pub fn rectify_calibrated(
     let axis = usize::from(turned.is_vertical);
     let shared = [0, 1].map(|a| options.zero_disparity_at_infinity || a != axis);
     let seen = around_what_is_seen(&outlines, shared, &new_size, options.alpha)?;
-    // The principal points stay where they are, as is usual, unless that costs too much of the
-    // view.
+    // The principal points stay in place, as is usual, unless that costs too much of the view.
     let (focal_px, centers) =
         around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
             .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.framing.0)

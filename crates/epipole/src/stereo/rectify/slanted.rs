@@ -1,28 +1,27 @@
-//! Photographs that stand slanted once they are rectified, as those of a baseline that runs askew
-//! through the picture.
+//! Images that are slanted after rectification, because of a diagonal baseline.
 
 use super::outline::Outline;
 use super::rect::PixelRect;
 use nalgebra::Vector2;
 
-/// Lines across the photographs that are tried as ends of what is shown.
+/// Number of lines across the images to try as bounds of the visible part.
 const NUM_LEVELS: usize = 97;
 
-/// The rectangles inside both photographs that have to be enlarged least to fill the results.
+/// Returns the rectangles inside both images that need the least magnification to fill the results.
 /// `None` if there are none.
 ///
-/// The rectangle between the innermost points of the four sides, [`Outline::inner`], shrinks to
-/// nothing as a picture of 4 : 3 is turned by 37°. One that may leave parts of the sides out stays
-/// some 40 % as large.
+/// The rectangle between the innermost points of the four sides, [`Outline::inner`], vanishes when
+/// an image of 4 : 3 is rotated by 37°. One that may cut off parts of the sides keeps some 40 % of
+/// the size.
 ///
-/// * `is_shared`: whether both have the same range along x, and along y; one of them at least
-/// * `new_size`: of the results, pixels
+/// * `is_shared`: whether both have the same range along x, and along y; at least one is true
+/// * `new_size`: size of the results, pixels
 pub(super) fn inscribed(
     outlines: &[Outline; 2],
     is_shared: [bool; 2],
     new_size: &Vector2<f64>,
 ) -> Option<[PixelRect; 2]> {
-    // Levels are shared, and each of them crosses the photographs.
+    // Levels are shared, and each crosses the images.
     let along = usize::from(is_shared[1]);
     let across = 1 - along;
     let ends = outlines
@@ -68,14 +67,14 @@ pub(super) fn inscribed(
     }))
 }
 
-/// Intersection of two ranges; its end may lie before its begin.
+/// Returns the intersection of two ranges; its end may be before its begin.
 fn common(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].min(b[1])]
 }
 
 impl Outline {
-    /// The part of the line at a level of one axis that is inside, as a range along the other. Its
-    /// end lies before its begin if the line misses the photograph.
+    /// Returns the part of the line at a level of one axis that is inside, as a range along the
+    /// other. Its end is before its begin if the line misses the image.
     fn crossed(&self, along: usize, level: f64) -> [f64; 2] {
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for (k, from) in self.border.iter().enumerate() {

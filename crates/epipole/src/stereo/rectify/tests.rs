@@ -1,4 +1,4 @@
-//! Rigs that turn and converge, photographed and rectified.
+//! Rectification of rotated and converging rigs.
 
 use super::cover::LARGEST_CROP;
 use super::*;
@@ -16,7 +16,7 @@ fn camera(fu: f64, fv: f64, cu: f64, cv: f64, k: [f64; 5]) -> Camera {
     }
 }
 
-/// The camera with photographs of another size.
+/// Returns the camera with another image size.
 fn sized(camera: Camera, width: u32, height: u32) -> Camera {
     Camera {
         width,
@@ -55,8 +55,8 @@ fn wide_rig() -> [Camera; 2] {
     ]
 }
 
-/// Points of the world land in the same row or column, at the disparity that Q turns back
-/// into their place, the right way up.
+/// World points project to the same row or column, with the disparity that Q converts back to their
+/// position, the right way up.
 #[test]
 fn matches_share_a_line_and_q_gives_them_back() {
     let mut random = Random::new(5);
@@ -115,8 +115,8 @@ fn matches_share_a_line_and_q_gives_them_back() {
     }
 }
 
-/// The second camera stands to the side and ahead: up to 60° off the image plane there is a region
-/// that both saw, or the error says what the limit is.
+/// The second camera is to the side and ahead: up to 60° off the image plane there is an overlap,
+/// or the error states the limit.
 #[test]
 fn a_baseline_far_off_the_image_plane_is_rectified() {
     for off_deg in [30.0_f64, 37.0, 45.0, 55.0] {
@@ -183,7 +183,7 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
         }
         assert!(num_rectified >= 12, "{off_deg}°: {num_rectified}");
     }
-    // The limit is where the error says, whichever way the baseline slants in the image plane.
+    // The limit is that of the error, whichever way the baseline slants in the image plane.
     let lens = camera(2000.0, 2000.0, 319.5, 239.5, [0.0; 5]);
     for slant_deg in (0..180).step_by(15) {
         let (sin, cos) = libm::sincos(f64::from(slant_deg).to_radians());
@@ -206,8 +206,8 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
     }
 }
 
-/// A model that was fitted to marks in the middle often folds before the corners: the rest of the
-/// photograph is rectified, and what lies beyond the fold is not shown.
+/// A model fitted to marks in the middle often folds before the corners: the rest of the image is
+/// rectified, and content beyond the fold is not shown.
 #[test]
 fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
     let folding = |k1: f64| Camera {
@@ -260,8 +260,8 @@ fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
     );
 }
 
-/// A second camera above and beside the first, or one of two that is held askew: the photographs
-/// stand slanted after it, and still a good part of them is shown, at any angle.
+/// A second camera above and beside the first, or one of the two rolled: the rectified images are
+/// slanted, yet a good part of them is visible, at any angle.
 #[test]
 fn photographs_that_stand_slanted_are_rectified() {
     let lens = camera(800.0, 800.0, 399.5, 299.5, [-0.1, 0.02, 0.0, 0.0, 0.0]);
@@ -275,14 +275,14 @@ fn photographs_that_stand_slanted_are_rectified() {
                     zero_disparity_at_infinity: shares_infinity,
                     ..Default::default()
                 };
-                // They turn toward each other by 7°, too.
+                // The cameras also converge by 7°.
                 let cam2_from_cam1 = motion([0.02, 0.12, 0.03], [sideways, up, 0.03]);
                 let rig =
                     rectify_calibrated(&[sized(lens, 800, 600); 2], &cam2_from_cam1, &options);
                 let rig = rig.unwrap_or_else(|error| panic!("{slant_deg}°: {error}"));
                 let focal_px = rig.intrinsics[0].fu_px();
-                // Photographs turned by 45° leave a rectangle that fills the results at 1340 px. To
-                // hold the principal points in the middle may cost twice that, and no more.
+                // Images rotated by 45° leave a rectangle that fills the results at 1340 px. To
+                // keep the principal points in the middle may cost at most twice that.
                 assert!(
                     focal_px < LARGEST_CROP * 1340.0,
                     "{slant_deg}°: {focal_px} px"
@@ -301,7 +301,7 @@ fn photographs_that_stand_slanted_are_rectified() {
                             (valid.u_max, v),
                         ] {
                             let p = rig.source_pixel(i, &Point2::new(u, v)).unwrap().unwrap();
-                            // Borders are followed in 64 steps a side.
+                            // Borders are sampled in 64 steps per side.
                             assert!((-0.1..799.1).contains(&p.x), "{slant_deg}°: {p}");
                             assert!((-0.1..599.1).contains(&p.y), "{slant_deg}°: {p}");
                         }
@@ -390,9 +390,9 @@ fn hopeless_rigs_are_refused() {
     assert!(q_from_rig(1.0, f64::NAN, 0.0, 0.0).is_err());
 }
 
-/// Through each model of a lens, also a fisheye of 190° whose circle leaves the corners black: what
-/// both see is in one row, at the disparity of its depth, and each result is read where its
-/// photograph shows it.
+/// For each lens model, including a fisheye of 190° whose circle leaves the corners black: matches
+/// share a row, with the disparity of their depth, and each result is read where its image shows
+/// the point.
 #[test]
 fn rigs_of_any_lens_are_rectified() {
     let mut random = Random::new(8);
@@ -448,7 +448,7 @@ fn rigs_of_any_lens_are_rectified() {
         }
         assert!(num_shown > 80, "{kind:?}: {num_shown}");
         for i in 0..2 {
-            // Every pixel of the result was photographed.
+            // Every pixel of the result has image content.
             for (u, v) in [
                 (0.0, 0.0),
                 (599.0, 0.0),

@@ -28,11 +28,10 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
         });
     }
     let half = half_rotation(&rotation);
-    // x2 = R x1 + t seen in the frame halfway: R^½ x1 and R^−½ x2 differ by R^−½ t alone.
+    // x2 = R x1 + t in the frame halfway: R^½ x1 and R^−½ x2 differ only by R^−½ t.
     let halfway = half.inverse() * t;
     let is_vertical = halfway.y.abs() > halfway.x.abs();
-    // Beyond 60° from the image plane, whichever way the baseline slants in it, the epipole comes
-    // into the picture.
+    // Beyond 60° from the image plane, in any direction, the epipole enters the image.
     if halfway.z.abs() > 3.0_f64.sqrt() * halfway.xy().norm() {
         return Err(Error::Degenerate {
             what,
@@ -53,7 +52,7 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     })
 }
 
-/// The rotation by half the angle about the same axis.
+/// Returns the rotation by half the angle about the same axis.
 fn half_rotation(rotation: &Rotation3<f64>) -> Rotation3<f64> {
     let m = rotation.matrix();
     // sin and cos of the angle, times 2.
@@ -69,7 +68,7 @@ fn half_rotation(rotation: &Rotation3<f64>) -> Rotation3<f64> {
     }
 }
 
-/// The rotation by the smallest angle that takes the direction of `from` to that of `to`.
+/// Returns the smallest rotation from the direction of `from` to that of `to`.
 fn shortest_rotation(from: &Vector3<f64>, to: &Vector3<f64>) -> Rotation3<f64> {
     let axis = from.cross(to);
     let angle = libm::atan2(axis.norm(), from.dot(to));
