@@ -3,17 +3,18 @@
 use super::calibrated_view::CalibratedView;
 use nalgebra::Vector3;
 
-/// Something about the views that makes a calibration less sure than its errors say.
+/// A property of the views that makes a calibration less certain than its errors suggest.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CalibrationWarning {
-    /// All boards have nearly one orientation: focal length and distance can hardly be told apart.
+    /// All boards have nearly the same orientation: focal length and distance are hardly
+    /// distinguishable.
     #[error(
         "the boards are nearly parallel: no two differ by more than {angle_deg:.0}°. Turn the board by 30° to \
          45° about several axes"
     )]
     Parallel {
-        /// The largest angle between two boards, degrees.
+        /// Largest angle between two boards, degrees.
         angle_deg: f64,
     },
     /// The focal length is uncertain.
@@ -22,28 +23,28 @@ pub enum CalibrationWarning {
          picture"
     )]
     UncertainFocal {
-        /// One standard deviation in percent of the focal length.
+        /// Standard deviation in percent of the focal length.
         percent: f64,
     },
-    /// Much of the image has no mark, and the lens is extrapolated there.
+    /// Much of the image has no marks, and the lens model extrapolates there.
     #[error(
         "the boards reach {percent:.0}% of the picture, and elsewhere the distortion is a guess. Move the board to \
          the edges and corners, too"
     )]
     LowCoverage {
-        /// Share of the image's area in percent.
+        /// Covered fraction of the image's area, percent.
         percent: f64,
     },
-    /// One view fits far worse than the others.
+    /// One view fits much worse than the others.
     #[error(
         "view {number} fits with {rms_px:.2} px, the others with {median_px:.2} px: blurred, bent, or of another board"
     )]
     BadView {
-        /// Counted from 1.
+        /// Number of the view, from 1.
         number: usize,
-        /// Its error, pixels.
+        /// RMS error of the view, pixels.
         rms_px: f64,
-        /// The median of all, pixels.
+        /// Median over all views, pixels.
         median_px: f64,
     },
 }
@@ -51,7 +52,7 @@ pub enum CalibrationWarning {
 const LEAST_ANGLE_DEG: f64 = 15.0;
 const LARGEST_DEVIATION: f64 = 0.01;
 const LEAST_COVERAGE: f64 = 0.4;
-/// A view that fits so many times as badly as the median, and by more than this, is told of.
+/// Minimum error of a bad view, as a multiple of the median, and excess over it, pixels.
 const BAD_VIEW: (f64, f64) = (3.0, 0.3);
 
 pub(super) fn warnings(
@@ -95,7 +96,7 @@ pub(super) fn warnings(
     warnings
 }
 
-/// Between the normals of two boards.
+/// Returns the largest angle between the normals of two boards.
 fn largest_angle_deg(views: &[&CalibratedView]) -> f64 {
     let normals: Vec<Vector3<f64>> = views
         .iter()

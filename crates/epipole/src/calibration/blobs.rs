@@ -1,4 +1,4 @@
-//! Disks, seen as ellipses.
+//! Detection of disks, seen as ellipses.
 
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, box_filter};
@@ -12,16 +12,16 @@ pub(super) struct Blob {
     pub(super) area: f64,
 }
 
-/// The surroundings that a pixel is compared with, as a share of the longer side.
+/// Size of the surroundings with which a pixel is compared, relative to the longer side.
 const SURROUNDINGS: f64 = 0.06;
-/// Pixels differ from their surroundings by more than this, of a range of 1.
+/// Minimum difference between a pixel and its surroundings, of a range of 1.
 const LEAST_CONTRAST: f32 = 0.04;
 const LEAST_AREA: f64 = 9.0;
-/// A filled ellipse has 4π √det of its second moments as its area; other shapes have less.
+/// Ratio of area to 4π √det of the second moments: 1 for a filled ellipse, less for other shapes.
 const ROUNDNESS: core::ops::Range<f64> = 0.85..1.12;
 const MOST_SLANTED: f64 = 5.0;
 
-/// The spots that are darker than their surroundings, or brighter.
+/// Finds the spots that are darker, or brighter, than their surroundings.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -83,8 +83,8 @@ pub(super) fn find_blobs(
     Ok(blobs)
 }
 
-/// The spot as an ellipse, its pixels weighed by how far they are from the board to the disk: those
-/// at its edge, which the disk covers in part, count in part.
+/// Fits an ellipse to a spot, with pixels weighted by their gray between board and disk, as the
+/// disk covers its edge pixels only in part.
 fn as_ellipse(image: &GrayImage32, spot: &[usize], width: usize, sign: f32) -> Option<Blob> {
     let (u_min, u_max) = (
         spot.iter().map(|at| at % width).min()?,
@@ -93,7 +93,7 @@ fn as_ellipse(image: &GrayImage32, spot: &[usize], width: usize, sign: f32) -> O
     let (v_min, v_max) = (spot.iter().min()? / width, spot.iter().max()? / width);
     let height = image.height() as usize;
     let value = |u: usize, v: usize| sign * image.as_raw()[v * width + u];
-    // Of the disk: the upper quartile of the spot. Of the board: the least around it.
+    // Gray of the disk: the upper quartile of the spot. Gray of the board: the minimum around it.
     let mut inside: Vec<f32> = spot
         .iter()
         .map(|at| value(at % width, at / width))
@@ -115,7 +115,7 @@ fn as_ellipse(image: &GrayImage32, spot: &[usize], width: usize, sign: f32) -> O
     }
     let (mut sum, mut center) = (0.0, nalgebra::Vector2::zeros());
     let mut moments = Matrix2::zeros();
-    // Pixels of the spot and next to it.
+    // Pixels of the spot and their neighbors.
     let is_near = near_mask(spot, width, (u0, u1), (v0, v1));
     let weight = |u: usize, v: usize| {
         if is_near[(v - v0) * (u1 - u0 + 1) + u - u0] {
@@ -141,7 +141,7 @@ fn as_ellipse(image: &GrayImage32, spot: &[usize], width: usize, sign: f32) -> O
             moments += off * off.transpose() * (weight(u, v) / sum);
         }
     }
-    // A pixel is no point.
+    // Correct for the extent of a pixel.
     moments -= Matrix2::identity() / 12.0;
     let (determinant, trace) = (moments.determinant(), moments.trace());
     if determinant <= 0.0 {

@@ -1,4 +1,4 @@
-//! Boards with marks at known places, and their images.
+//! Boards with marks at known positions, and their images.
 
 use super::markers::MarkerDictionary;
 use crate::{Error, Result};
@@ -17,32 +17,32 @@ pub enum Pattern {
     Chessboard,
     /// Dark disks in rows and columns; the marks are their centers.
     Circles,
-    /// Dark disks, every second row shifted by half of the distance between neighbors; the marks
-    /// are their centers.
+    /// Dark disks, every second row shifted by half the distance between neighbors; the marks are
+    /// their centers.
     AsymmetricCircles,
     /// A chessboard with markers in its white squares, numbered row by row; the marks are the inner
-    /// corners. The upper left square is black, as in OpenCV from 4.6 on (no `legacyPattern`).
+    /// corners. The upper left square is black, as in OpenCV since 4.6 (no `legacyPattern`).
     Charuco {
-        /// The markers.
+        /// Dictionary of the markers.
         dictionary: MarkerDictionary,
-        /// Side of a marker as a share of a square's, below 1.
+        /// Ratio of the sides of marker and square, below 1.
         marker_share: f64,
     },
-    /// AprilTags 36h11 with a border of two bits and black squares between their corners, as Kalibr
-    /// draws them; the marks are the corners of the tags. The first tag is the lower left one.
+    /// AprilTags 36h11 with a border of two bits and black squares between their corners, as in
+    /// Kalibr; the marks are the corners of the tags. The first tag is the lower left one.
     AprilGrid {
-        /// Distance between tags as a share of their side.
+        /// Distance between tags, relative to their side.
         spacing: f64,
     },
 }
 
 impl Pattern {
-    /// Whether its marks are numbered by markers, so that a part of a board is enough.
+    /// Returns whether markers identify its marks, so that a part of a board suffices.
     pub(super) fn has_markers(self) -> bool {
         matches!(self, Self::Charuco { .. } | Self::AprilGrid { .. })
     }
 
-    /// Columns and rows of marks.
+    /// Returns the numbers of columns and rows of marks.
     ///
     /// * `columns`, `rows`: as in [`Board::new`]
     fn marks(self, columns: usize, rows: usize) -> (usize, usize) {
@@ -53,7 +53,7 @@ impl Pattern {
         }
     }
 
-    /// Minimum number of columns and of rows.
+    /// Returns the minimum numbers of columns and rows.
     fn fewest(self) -> (usize, usize) {
         match self {
             Self::AsymmetricCircles => (2, 3),
@@ -63,7 +63,7 @@ impl Pattern {
     }
 }
 
-/// A flat board with marks at known places.
+/// A flat board with marks at known positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Board {
     pattern: Pattern,
@@ -73,18 +73,17 @@ pub struct Board {
 }
 
 impl Board {
-    /// A board.
+    /// Creates a board.
     ///
-    /// * `columns`, `rows`: inner corners of a chessboard, one less than squares; squares of a
-    ///   ChArUco board; tags of an AprilGrid; disks in a row and rows of a circle grid
-    /// * `square_m`: the side of a square or of a tag, or the distance of two rows of a circle
-    ///   grid, meters
+    /// * `columns`, `rows`: inner corners of a chessboard, one less than its squares; squares of a
+    ///   ChArUco board; tags of an AprilGrid; disks per row and rows of a circle grid
+    /// * `square_m`: side of a square or tag, or distance between two rows of a circle grid, meters
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than 3 × 3 or more than 1000 along a side, for a length that
-    /// is not above 0, for more markers than the dictionary has, for a share of the markers that is
-    /// not between 0 and 1 and a spacing that is not above 0 and at most 1. A grid with shifted
-    /// disks needs 2 columns only, an AprilGrid one tag.
+    /// [`Error::OutOfRange`] for a size below 3 × 3 or above 1000 along a side, for a length that
+    /// is not above 0, for more markers than the dictionary has, for a marker ratio that is not
+    /// between 0 and 1, and a spacing that is not above 0 and at most 1. A grid with shifted disks
+    /// needs only 2 columns, an AprilGrid only one tag.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -93,14 +92,14 @@ impl Board {
     /// let board = Board::new(Pattern::Chessboard, 9, 6, 0.025)?;
     /// assert_eq!(board.num_marks(), 54);
     /// assert_eq!(board.mark(10), Point2::new(0.025, 0.025));
-    /// // The disks of the second row stand between those of the first.
+    /// // The disks of the second row are between those of the first.
     /// let grid = Board::new(Pattern::AsymmetricCircles, 4, 11, 0.02)?;
     /// assert_eq!(grid.mark(4), Point2::new(0.02, 0.02));
     /// // 7 × 5 squares have 6 × 4 inner corners and 17 markers.
     /// let dictionary = MarkerDictionary::Aruco4x4_50;
     /// let charuco = Board::new(Pattern::Charuco { dictionary, marker_share: 0.75 }, 7, 5, 0.03)?;
     /// assert_eq!((charuco.columns(), charuco.rows()), (6, 4));
-    /// // Tags of 8 cm that are 2 cm apart: the third corner is that of the second tag.
+    /// // Tags of 8 cm at distances of 2 cm: the third corner is that of the second tag.
     /// let tags = Board::new(Pattern::AprilGrid { spacing: 0.25 }, 6, 6, 0.08)?;
     /// assert_eq!((tags.num_marks(), tags.mark(2)), (144, Point2::new(0.1, 0.0)));
     /// # Ok(()) }
@@ -136,22 +135,22 @@ impl Board {
         })
     }
 
-    /// Its pattern.
+    /// Returns the pattern.
     pub fn pattern(&self) -> Pattern {
         self.pattern
     }
 
-    /// Marks in a row.
+    /// Returns the number of marks per row.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// Rows of marks.
+    /// Returns the number of rows of marks.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The side of a square or of a tag, or the distance of two rows of disks, meters.
+    /// Returns the side of a square or tag, or the distance between two rows of disks, meters.
     pub fn square_m(&self) -> f64 {
         self.square_m
     }
@@ -161,12 +160,12 @@ impl Board {
         self.columns * self.rows
     }
 
-    /// The place of a mark on the board, meters. Marks are counted row by row.
+    /// Returns the position of a mark on the board, meters. Marks are numbered row by row.
     pub fn mark(&self, index: usize) -> Point2<f64> {
         self.mark_in_squares(index) * self.square_m
     }
 
-    /// The place of a mark, in squares.
+    /// Returns the position of a mark, in squares.
     pub(super) fn mark_in_squares(&self, index: usize) -> Point2<f64> {
         let (row, column) = (index / self.columns, index % self.columns);
         match self.pattern {
@@ -182,7 +181,7 @@ impl Board {
     }
 }
 
-/// Refuses patterns whose markers do not fit or are too many.
+/// Rejects patterns whose markers do not fit or are too many.
 fn check_markers(pattern: Pattern, columns: usize, rows: usize) -> Result<()> {
     let (dictionary, num_markers) = match pattern {
         Pattern::Charuco {
@@ -220,31 +219,31 @@ fn check_markers(pattern: Pattern, columns: usize, rows: usize) -> Result<()> {
     Ok(())
 }
 
-/// Marks of a board seen in one photograph.
+/// Marks of a board seen in one image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoardView {
-    /// For each mark of the board, row by row, its pixel, or `None` where something hides it.
+    /// For each mark of the board, row by row, its pixel, or `None` if not visible.
     pub pixels: Vec<Option<Point2<f64>>>,
 }
 
 impl BoardView {
-    /// The marks that are seen, each with its pixel.
+    /// Iterates over the visible marks with their pixels.
     pub fn seen(&self) -> impl Iterator<Item = (usize, Point2<f64>)> + '_ {
         let marks = self.pixels.iter().enumerate();
         marks.filter_map(|(mark, pixel)| pixel.map(|pixel| (mark, pixel)))
     }
 
-    /// Number of marks seen.
+    /// Returns the number of visible marks.
     pub fn num_seen(&self) -> usize {
         self.seen().count()
     }
 
-    /// Whether all marks are seen.
+    /// Returns whether all marks are visible.
     pub(super) fn is_whole(&self) -> bool {
         self.pixels.iter().all(Option::is_some)
     }
 
-    /// Distance from a mark to its nearest neighbor; `None` if no neighbor is seen.
+    /// Returns the distance from a mark to its nearest neighbor; `None` if no neighbor is visible.
     pub(super) fn spacing(&self, mark: usize, columns: usize) -> Option<f64> {
         let here = self.pixels[mark]?;
         let (column, row) = (mark % columns, mark / columns);
@@ -256,7 +255,8 @@ impl BoardView {
             .min_by(f64::total_cmp)
     }
 
-    /// The pixels of the mark's neighbors, previous and next: along its row, then along its column.
+    /// Returns the pixels of the mark's neighbors, previous and next: along its row, then along its
+    /// column.
     pub(super) fn beside(&self, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
         let at = |inside: bool, index: usize| {
             let pixel = || self.pixels.get(index).copied().flatten();
@@ -275,7 +275,7 @@ impl BoardView {
         ]
     }
 
-    /// Refuses views that are not of this board.
+    /// Rejects views of another board.
     pub(super) fn check(&self, board: &Board) -> Result<()> {
         if self.pixels.len() != board.num_marks() {
             return Err(Error::SizeMismatch {

@@ -13,13 +13,13 @@ pub(super) struct BoardMarkers {
     pub(super) dictionary: MarkerDictionary,
     /// Width of the black border.
     pub(super) border_bits: usize,
-    /// Corners of each marker in squares, by number, clockwise from the first corner of the marker.
+    /// Corners of each marker in squares, by number, clockwise from its first corner.
     pub(super) corners: Vec<[Point2<f64>; 4]>,
-    /// Distance from a mark to the nearest edge that is not one of its two, squares.
+    /// Distance from a mark to the nearest edge other than its own two, squares.
     pub(super) clear: f64,
 }
 
-/// The markers of a board; `None` for patterns without.
+/// Returns the markers of a board; `None` for patterns without markers.
 pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
     match board.pattern() {
         Pattern::Chessboard | Pattern::Circles | Pattern::AsymmetricCircles => None,
@@ -27,7 +27,7 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
             dictionary,
             marker_share,
         } => {
-            // Squares that begin a step before the first mark and end one behind the last.
+            // Squares from one step before the first mark to one step behind the last.
             let squares =
                 (0..=board.rows()).flat_map(|j| (0..=board.columns()).map(move |i| [i, j]));
             let white = squares.filter(|[i, j]| (i + j) % 2 == 1);
@@ -48,7 +48,7 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
             let tags = (0..rows)
                 .rev()
                 .flat_map(|j| (0..columns).map(move |i| 4 * j * columns + 2 * i));
-            // OpenCV has these markers half a turn from the drawn ones.
+            // OpenCV's markers are rotated by 180° from the drawn ones.
             let corners = tags.map(|mark| {
                 let [a, b, c, d] = square(board.mark_in_squares(mark), 1.0);
                 [c, d, a, b]
@@ -66,7 +66,7 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
     }
 }
 
-/// The corners of a square, clockwise from the first.
+/// Returns the corners of a square, clockwise from the first.
 fn square(first: Point2<f64>, side: f64) -> [Point2<f64>; 4] {
     [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| first + Vector2::new(x, y))
 }
@@ -75,7 +75,7 @@ fn square(first: Point2<f64>, side: f64) -> [Point2<f64>; 4] {
 mod tests {
     use super::*;
 
-    /// `cv2.aruco.CharucoBoard((5, 4), 1, 0.5, …)`: the places of its markers.
+    /// The positions of the markers in `cv2.aruco.CharucoBoard((5, 4), 1, 0.5, …)`.
     #[test]
     fn charuco_markers_are_where_opencv_has_them() {
         let pattern = Pattern::Charuco {
@@ -97,7 +97,7 @@ mod tests {
         let board = Board::new(Pattern::AprilGrid { spacing: 0.25 }, 3, 2, 1.0).unwrap();
         let markers = board_markers(&board).unwrap();
         assert_eq!(markers.corners.len(), 6);
-        // The first tag is below, the last one in the upper right.
+        // The first tag is at the bottom, the last one at the upper right.
         assert_eq!(markers.corners[0][2], Point2::new(0.0, 1.25));
         assert_eq!(markers.corners[5][0], Point2::new(3.5, 1.0));
         assert_eq!(markers.clear, 0.25);

@@ -1,40 +1,40 @@
-//! The outcome of a search for a board.
+//! Result of a search for a board.
 
 use super::{Board, BoardView};
 
-/// A grid of which this share of the marks is seen is no chance.
+/// Minimum fraction of visible marks of a grid that is not accidental.
 const WHOLE: f64 = 0.8;
-/// Ratio of marks above which a grid is another one, not the same with a stray corner.
+/// Ratio of marks above which a grid is a different one, not the same with a stray corner.
 const MORE: f64 = 1.25;
 
 /// Result of a search for a board.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BoardSearch {
-    /// Its marks.
+    /// The marks of the board.
     Found(BoardView),
-    /// A grid, but not all of this board: part of it is outside of the picture or hidden, or it is
-    /// of another size.
+    /// An incomplete grid: part of the board is outside the image or hidden, or the grid has
+    /// another size.
     Partial {
-        /// Marks along the longer side.
+        /// Number of marks along the longer side.
         columns: usize,
-        /// Marks along the shorter side.
+        /// Number of marks along the shorter side.
         rows: usize,
-        /// Number of marks seen.
+        /// Number of visible marks.
         num_seen: usize,
     },
-    /// Markers, but too few of the board's marks, or not as they stand on the board.
+    /// Markers, but too few marks of the board, or not in the arrangement of the board.
     Markers {
-        /// Number of markers that stand to each other as on the board.
+        /// Number of markers in the arrangement of the board.
         num_of_board: usize,
         /// Number of other markers of the dictionary.
         num_others: usize,
     },
-    /// Nothing like it.
+    /// Nothing similar.
     Nothing,
 }
 
 impl BoardSearch {
-    /// The view, if the board was found.
+    /// Returns the view, if the board was found.
     pub fn view(self) -> Option<BoardView> {
         match self {
             Self::Found(view) => Some(view),
@@ -42,7 +42,7 @@ impl BoardSearch {
         }
     }
 
-    /// Why there is no view, as a sentence; `None` if there is one.
+    /// Returns the reason why there is no view, as a sentence; `None` if there is one.
     pub fn problem(&self, board: &Board) -> Option<String> {
         let (columns, rows) = (board.columns(), board.rows());
         match self {
@@ -79,8 +79,8 @@ impl BoardSearch {
         }
     }
 
-    /// Corners of other things stand in a row here and there: a grid is told from them by two rows
-    /// and columns at least, of which half is seen.
+    /// Discards accidental grids: corners of other objects also form rows, but a real grid has at
+    /// least two rows and columns, and half of it is visible.
     pub(super) fn unless_by_chance(self) -> Self {
         match self {
             Self::Partial {
@@ -92,8 +92,8 @@ impl BoardSearch {
         }
     }
 
-    /// Whether this is a whole grid, larger than the board, beside which a part of one means
-    /// nothing: the board is of another size then, and texture looked like it.
+    /// Returns whether this is a complete grid larger than the board, so that a partial view of the
+    /// board is a false match in texture: the board then has another size.
     pub(super) fn outdoes(&self, view: &BoardView, board: &Board) -> bool {
         let &Self::Partial {
             columns,
@@ -112,7 +112,7 @@ impl BoardSearch {
             && !view.is_whole()
     }
 
-    /// The one with more marks.
+    /// Returns the result with more marks.
     pub(super) fn or_more(self, other: Self) -> Self {
         let num_seen = |search: &Self| match search {
             Self::Found(view) => usize::MAX - view.pixels.len() + view.num_seen(),
@@ -158,11 +158,11 @@ mod tests {
             }
             .unless_by_chance()
         };
-        // As photographs of other things give them.
+        // As in images of other objects.
         for (columns, rows, num_seen) in [(15, 11, 9), (3, 1, 3)] {
             assert_eq!(search(columns, rows, num_seen), BoardSearch::Nothing);
         }
-        // A board whose last column is out of sight.
+        // A board whose last column is outside the image.
         assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
     }
 
@@ -181,8 +181,8 @@ mod tests {
         };
         assert!(grid(9, 6, 54).outdoes(&view(38), &board));
         assert!(grid(9, 7, 55).outdoes(&view(38), &board));
-        // All of the board is there; the other grid has gaps, as what is no board; or it has hardly
-        // more marks, or fewer.
+        // The board is complete; the other grid has gaps, so it is no board, or has hardly more
+        // marks, or fewer.
         assert!(!grid(9, 6, 54).outdoes(&view(42), &board));
         assert!(!grid(9, 7, 49).outdoes(&view(38), &board));
         assert!(!grid(8, 6, 48).outdoes(&view(41), &board));

@@ -1,20 +1,20 @@
-//! Turns after which a board looks the same.
+//! Rotations that leave the appearance of a board unchanged.
 
 use super::{Board, BoardView, Pattern};
 use crate::camera::RigidTransform;
 use core::f64::consts::FRAC_PI_2;
 use nalgebra::{Translation3, Vector3};
 
-/// A turn of a board in its plane that no photograph shows.
+/// Rotation of a board in its plane that leaves its appearance unchanged.
 pub(super) struct BoardTurn {
-    /// For each mark of the turned board, the mark that is there before.
+    /// For each mark of the rotated board, the mark previously at this position.
     mark_before: Vec<usize>,
     /// `x_in_board = board_from_turned * x_in_turned`.
     pub(super) board_from_turned: RigidTransform,
 }
 
 impl BoardTurn {
-    /// The same view, its marks counted on the turned board.
+    /// Returns the same view, with marks numbered on the rotated board.
     pub(super) fn view(&self, view: &BoardView) -> BoardView {
         BoardView {
             pixels: self
@@ -26,11 +26,11 @@ impl BoardTurn {
     }
 }
 
-/// The turns of a board; the first one is none.
+/// Returns the rotations of a board, starting with the identity.
 ///
-/// Colors of squares are kept by half a turn if columns and rows of corners are both even or both
-/// odd, and by a quarter if they are equal and even. Circles in rows and columns are kept by half a
-/// turn. Markers tell every turn.
+/// Chessboard colors are invariant under 180° rotation if the numbers of columns and rows of
+/// corners are both even or both odd, and under 90° if they are equal and even. Circle grids are
+/// invariant under 180°. Boards with markers have no such symmetry.
 pub(super) fn board_turns(board: &Board) -> Vec<BoardTurn> {
     let (columns, rows) = (board.columns(), board.rows());
     let quarters: &[usize] = match board.pattern() {

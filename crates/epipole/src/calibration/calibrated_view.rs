@@ -1,4 +1,4 @@
-//! The result of a calibration for one view.
+//! Calibration result of one view.
 
 use crate::camera::RigidTransform;
 
@@ -9,6 +9,6 @@ pub struct CalibratedView {
     pub cam_from_board: RigidTransform,
     /// Root mean square of its reprojection errors, pixels.
     pub rms_px: f64,
-    /// Marks seen.
+    /// Number of visible marks.
     pub num_marks: usize,
 }

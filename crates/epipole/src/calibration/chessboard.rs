@@ -1,4 +1,4 @@
-//! The inner corners of a chessboard.
+//! Detection of the inner corners of a chessboard.
 
 use super::board_search::BoardSearch;
 use super::lattice::{Cell, Lattice};
@@ -11,24 +11,25 @@ use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::{Point2, Vector2};
 use std::collections::BTreeMap;
 
-/// Minimum share of the board's corners that must be found.
+/// Minimum fraction of the board's corners that must be found.
 const LEAST_SHARE: f64 = 0.5;
-/// Corners in each of the outermost rows and columns, so that there is no doubt which they are.
+/// Minimum number of corners in each outermost row and column, to identify them unambiguously.
 const LEAST_IN_A_LINE: usize = 2;
-/// Cosine of the maximum angle, some 30°, between an edge at one corner and at the next.
+/// Cosine of the maximum angle, about 30°, between an edge at one corner and at the next.
 const ALONG: f64 = 0.87;
-/// Within this share of the distance to the next corner there must be nothing but the four squares.
+/// Radius around a corner that must contain only its four squares, relative to the distance to the
+/// next corner.
 const CLEAR: f64 = 0.36;
-/// Smaller circles were looked at before.
+/// Radius below which circles were already checked.
 const LEAST_RADIUS_PX: f64 = 6.5;
-/// Candidates looked at from each corner.
+/// Number of candidates to check from each corner.
 const NEAREST: usize = 16;
 
-/// Looks for a chessboard in an image of this very size; corners are as exact as the search needs
-/// them.
+/// Finds a chessboard in an image at its given size; corners are only as accurate as the search
+/// needs.
 ///
 /// # Errors
-/// [`Error::Canceled`](crate::Error::Canceled), and for a bad pixel.
+/// [`Error::Canceled`](crate::Error::Canceled), and for an invalid pixel.
 pub(super) fn find_chessboard(
     image: &GrayImage32,
     board: &Board,
@@ -41,7 +42,7 @@ pub(super) fn find_chessboard(
     let mut best = BoardSearch::Nothing;
     let mut in_part = None;
     let num_links = |i: usize| neighbors[i].iter().flatten().count();
-    // Corners with all four neighbors first: inside of the board.
+    // Corners with all four neighbors first, as they are inside the board.
     let mut seeds: Vec<usize> = (0..saddles.len()).collect();
     seeds.sort_by_key(|&i| (4 - num_links(i), i));
     for (k, seed) in seeds.into_iter().enumerate() {
@@ -70,7 +71,7 @@ pub(super) fn find_chessboard(
     })
 }
 
-/// Leaves out corners that something in front of the board would draw to itself.
+/// Removes corners that an object in front of the board would displace.
 fn clear_only(view: BoardView, image: &SaddleImage, board: &Board) -> BoardView {
     let is_clear = |mark: usize, place: &Point2<f64>| {
         let radius = CLEAR * view.spacing(mark, board.columns()).unwrap_or(0.0);
@@ -84,7 +85,8 @@ fn clear_only(view: BoardView, image: &SaddleImage, board: &Board) -> BoardView 
     }
 }
 
-/// For each corner, the next ones along +edge 0, −edge 0, +edge 1 and −edge 1, where both agree.
+/// For each corner, returns the next ones along +edge 0, −edge 0, +edge 1 and −edge 1, where both
+/// agree.
 fn neighbors(saddles: &[Saddle], monitor: &mut dyn Monitor) -> Result<Vec<[Option<usize>; 4]>> {
     let indices: Vec<usize> = (0..saddles.len()).collect();
     let stage = Stage::FeatureDetection;
@@ -116,8 +118,8 @@ fn way_vector(saddle: &Saddle, way: usize) -> Vector2<f64> {
     saddle.edges[way / 2] * if way.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Whether `to` may be the next corner from `from` along an edge: it lies in that direction, the
-/// edge continues through it, and dark and bright have changed sides.
+/// Returns whether `to` may be the next corner from `from` along an edge: it lies in that
+/// direction, the edge continues through it, and dark and bright have changed sides.
 fn is_next(from: &Saddle, to: &Saddle, way: usize) -> bool {
     let step = to.place - from.place;
     let along = step / step.norm();
@@ -127,7 +129,7 @@ fn is_next(from: &Saddle, to: &Saddle, way: usize) -> bool {
 
 /// Grows the grid around a corner: i along its edge 0 and j along its edge 1, so that the quadrants
 /// towards +i and +j are dark in cells whose coordinates have an even sum, and j is clockwise from
-/// i on the screen.
+/// i in the image.
 fn grow(
     seed: usize,
     saddles: &[Saddle],
@@ -144,7 +146,7 @@ fn grow(
     cells.insert((0, 0), seed);
     frames.insert((0, 0), saddles[seed].edges);
     taken[seed] = true;
-    // Short steps first: one over something that hides two corners must not come before the way
+    // Short steps first: a step over an object that hides two corners must not come before the path
     // around it.
     let mut links: Vec<(f64, Cell, usize)> = Vec::new();
     let mut arrived = Some((0, 0));
@@ -177,7 +179,7 @@ fn grow(
         } else {
             (cell.0, cell.1 + sign)
         };
-        // The frame is carried on by the edges that are there.
+        // The local edges continue the frame.
         let edges = saddles[next].edges;
         let carried = frame.map(|axis| {
             let is_first = edges[0].dot(&axis).abs() > edges[1].dot(&axis).abs();
@@ -200,13 +202,13 @@ fn grow(
     }
 }
 
-/// Looks again where the grid should have corners.
+/// Searches again where the grid should have corners.
 fn fill(lattice: &mut Lattice, image: &SaddleImage, board: &Board) {
     let longest = board.columns().max(board.rows()) as i32;
     for _ in 0..longest {
         let mut found = Vec::new();
         for cell in lattice.open_cells() {
-            // A single neighbor is too little to go by.
+            // A single neighbor is not enough for a prediction.
             let Some(place) = lattice.predict(cell) else {
                 continue;
             };
@@ -234,7 +236,7 @@ fn fill(lattice: &mut Lattice, image: &SaddleImage, board: &Board) {
     }
 }
 
-/// Whether a corner's dark quadrant is where the grid has it: towards +i and +j in even cells.
+/// Returns whether a corner's dark quadrant agrees with the grid: towards +i and +j in even cells.
 fn has_right_colors(lattice: &Lattice, (i, j): Cell, saddle: &Saddle) -> bool {
     let toward = |di: i32, dj: i32| -> Option<Vector2<f64>> {
         let ahead = lattice.points.get(&(i + di, j + dj));
@@ -242,7 +244,7 @@ fn has_right_colors(lattice: &Lattice, (i, j): Cell, saddle: &Saddle) -> bool {
         match (ahead, behind) {
             (Some(p), _) => Some(p - saddle.place),
             (None, Some(p)) => Some(saddle.place - p),
-            // From the rows beside it.
+            // From adjacent rows.
             (None, None) => {
                 let (a, b) = (dj, di);
                 [1, -1].iter().find_map(|s| {
@@ -272,7 +274,7 @@ fn has_right_colors(lattice: &Lattice, (i, j): Cell, saddle: &Saddle) -> bool {
     a.abs() > ALONG && b.abs() > ALONG
 }
 
-/// Places the grid on the board, or returns the reason why it does not fit.
+/// Aligns the grid with the board, or returns the reason why it does not fit.
 fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
     let (columns, rows) = (board.columns(), board.rows());
     let Some(extent) = grid.extent() else {
@@ -284,7 +286,7 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
         rows: a.min(b),
         num_seen: grid.points.len(),
     };
-    // Fewest corners hidden first, then a dark quadrant inside of the first corner, then upright.
+    // Prefer the fewest hidden corners, then a dark quadrant inside the first corner, then upright.
     let mut best: Option<((usize, bool, f64), BoardView)> = None;
     for quarter in 0..4 {
         let lattice = grid.mapped(|cell| turned(cell, quarter));
@@ -327,8 +329,8 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
     best.map_or(partial, |(_, view)| BoardSearch::Found(view))
 }
 
-/// Whether a row or column beside the window is filled by more than half: the board is larger then.
-/// A few corners beside it are things in the background.
+/// Returns whether more than half of a row or column next to the window is filled, so that the
+/// board is larger. A few corners there are background.
 fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) -> bool {
     let (right, bottom) = (left + columns as i32, top + rows as i32);
     let is_filled = |cells: &mut dyn Iterator<Item = Cell>, count: usize| {
@@ -345,7 +347,7 @@ fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) ->
             .any(|&i| is_filled(&mut (top..bottom).map(|j| (i, j)), rows))
 }
 
-/// A cell in axes rotated by `quarters` quarter turns.
+/// Returns a cell in axes rotated by `quarters` times 90°.
 fn turned((i, j): Cell, quarters: i32) -> Cell {
     match quarters {
         0 => (i, j),
@@ -355,15 +357,15 @@ fn turned((i, j): Cell, quarters: i32) -> Cell {
     }
 }
 
-/// u + v of the first corner minus that of the last, pixels.
+/// Returns u + v of the first corner minus that of the last, pixels.
 pub(super) fn slope(view: &BoardView) -> f64 {
     let mut seen = view.pixels.iter().flatten().map(|p| p.x + p.y);
     let first = seen.next().unwrap_or(0.0);
     first - seen.next_back().unwrap_or(first)
 }
 
-/// Whether the outermost rows and columns are seen, so that there is no doubt which corner is
-/// which.
+/// Returns whether the outermost rows and columns are visible, so that corners are identified
+/// unambiguously.
 fn reaches_all_sides(view: &BoardView, columns: usize, rows: usize) -> bool {
     let count = |cells: &mut dyn Iterator<Item = usize>| {
         cells.filter(|&k| view.pixels[k].is_some()).count() >= LEAST_IN_A_LINE

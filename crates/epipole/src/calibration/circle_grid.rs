@@ -1,4 +1,4 @@
-//! The disks of a circle grid.
+//! Detection of a circle grid.
 
 use super::blobs::{Blob, find_blobs};
 use super::board_search::BoardSearch;
@@ -11,14 +11,14 @@ use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::{Point2, Vector2};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Of a grid's disks so many must be found.
+/// Minimum fraction of a grid's disks that must be found.
 const LEAST_SHARE: f64 = 0.6;
-/// Maximum distance of a disk from the prediction of its neighbors, as a share of a step.
+/// Maximum distance of a disk from the prediction by its neighbors, relative to a step.
 const NEAR: f64 = 0.3;
-/// Disks next to each other have areas that differ by this factor at most.
+/// Range of the ratio of areas of adjacent disks.
 const AREAS: core::ops::Range<f64> = 0.4..2.5;
 
-/// Looks for a circle grid in an image of this very size.
+/// Finds a circle grid in an image at its given size.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -53,8 +53,8 @@ pub(super) fn find_circle_grid(
     Ok(best)
 }
 
-/// The steps to a disk's nearest neighbors, which stand crosswise: two pairs of opposite ones of
-/// four. The second is clockwise from the first.
+/// Returns the steps to a disk's nearest neighbors if these form a cross: two pairs of opposite
+/// ones. The second step is clockwise from the first.
 fn frame_of(seed: usize, blobs: &[Blob]) -> Option<[Vector2<f64>; 2]> {
     let here = &blobs[seed];
     let mut near: Vec<Vector2<f64>> = blobs
@@ -118,8 +118,8 @@ fn grow(seed: usize, frame: [Vector2<f64>; 2], blobs: &[Blob], taken: &mut [bool
     Lattice { points }
 }
 
-/// The grid as the board's disks in rows and columns, the first one in the upper left of the image;
-/// or what is wrong with it.
+/// Aligns the grid with the board's rows and columns of disks, the first disk at the upper left of
+/// the image; or returns the reason why it does not fit.
 fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
     let (columns, rows) = (board.columns(), board.rows());
     let Some((across, down)) = grid.extent().map(|extent| extent.size()) else {
@@ -158,11 +158,11 @@ fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
     )
 }
 
-/// The grid as the board's shifted disks, or what is wrong with it.
+/// Aligns the grid with the board's shifted disks, or returns the reason why it does not fit.
 fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
     let (columns, rows) = (board.columns(), board.rows());
     let mut partial = BoardSearch::Nothing;
-    // Neighbors are diagonal: a step along the lattice is one along x and one along y.
+    // Neighbors are diagonal: a lattice step is one step along x and one along y.
     for quarters in 0..4 {
         let diagonal = grid.mapped(|(a, b)| match quarters {
             0 => (a - b, a + b),
@@ -182,7 +182,7 @@ fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
             });
         }
         let first = extent.least;
-        // The first row begins at the very left, every second one a step further.
+        // The first row begins leftmost, every second one a step further.
         let has_parity = diagonal
             .points
             .keys()

@@ -1,4 +1,4 @@
-//! Intrinsics from homographies of planes, without a start.
+//! Closed-form intrinsics from homographies of planes.
 
 use crate::camera::Intrinsics;
 use crate::math::null_space::right_singular_vectors;
@@ -7,19 +7,19 @@ use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 
 const WHAT: &str = "the intrinsics from views of a plane";
 
-/// K from homographies of a plane with a metric, in two views or more that are not parallel, no
-/// skew.
+/// Computes K without skew from homographies of a metric plane, in two or more views that are not
+/// parallel.
 ///
-/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic
-/// `ω = K⁻ᵀ K⁻¹`, since r1 and r2 have one length and are perpendicular: `h1ᵀ ω h2 = 0` and
-/// `h1ᵀ ω h1 = h2ᵀ ω h2`.
+/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic `ω =
+/// K⁻ᵀ K⁻¹`, since r1 and r2 are orthogonal and equally long: `h1ᵀ ω h2 = 0` and `h1ᵀ ω h1 = h2ᵀ ω
+/// h2`.
 ///
 /// * `pixels_from_plane`: homographies from the plane, in any unit of length, to pixels
 ///
 /// # Errors
-/// [`Error::TooFew`] for fewer than two views (three of general position are needed for certainty),
-/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the views leave K open,
-/// for instance since all planes are parallel, or if noise makes ω the conic of no camera.
+/// [`Error::TooFew`] for fewer than two views (three in general position are needed for certainty),
+/// [`Error::NotFinite`] for NaN and infinities, [`Error::Degenerate`] if the views do not determine
+/// K, for instance if all planes are parallel, or if with noise no camera has the conic ω.
 ///
 /// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.1.
 ///
@@ -93,11 +93,11 @@ pub fn intrinsics_from_planes(pixels_from_plane: &[Matrix3<f64>]) -> Result<Intr
     )
 }
 
-/// The focal lengths for a known principal point: with only two unknowns one view is enough, and
-/// noise does less harm.
+/// Computes the focal lengths for a known principal point: with only two unknowns a single view
+/// suffices, and noise has less effect.
 ///
 /// # Errors
-/// As [`intrinsics_from_planes`]; one view that is parallel to the image leaves them open.
+/// As [`intrinsics_from_planes`]; a single view parallel to the image does not determine them.
 pub(super) fn focals_from_planes(
     pixels_from_plane: &[Matrix3<f64>],
     center: &Point2<f64>,
@@ -147,15 +147,16 @@ pub(super) fn focals_from_planes(
     )
 }
 
-/// The first two columns of H, as long as one together, so that every view counts alike.
+/// Returns the first two columns of H, scaled to a common length of one, so that all views have
+/// equal weight.
 fn columns(homography: &Matrix3<f64>) -> [Vector3<f64>; 2] {
     let columns = [homography.column(0), homography.column(1)];
     let length = (columns[0].norm_squared() + columns[1].norm_squared()).sqrt();
     columns.map(|column| column / length)
 }
 
-/// Typical distance of the planes' origins from pixel (0, 0), in pixels, for scaling coordinates to
-/// about 1.
+/// Returns the typical distance of the planes' origins from pixel (0, 0), pixels, for scaling
+/// coordinates to about 1.
 fn typical_size(homographies: &[Matrix3<f64>]) -> Result<f64> {
     let mut sum = 0.0;
     for h in homographies {

@@ -3,17 +3,17 @@
 use crate::imaging::GrayImage32;
 use image::Luma;
 
-/// Share of the pixels beyond either end of the range in use.
+/// Fraction of the pixels ignored at either end of the range in use.
 const BEYOND: f64 = 0.005;
 
-/// A range larger than this is not stretched.
+/// Maximum range to stretch.
 const NARROW: f32 = 0.4;
 
-/// Range of an image that shows one gray value, as a sensor of 8 bits does.
+/// Minimum range: smaller ones are a single gray value of an 8-bit sensor.
 const NOTHING: f32 = 4.0 / 255.0;
 
-/// The image with the gray values in use from 0 to 1, if they are few: as a thermal camera gives
-/// them, or fog. Places stay as they are.
+/// Stretches the gray values in use to the range 0 to 1, if it is narrow, as from thermal cameras
+/// or in fog. Positions do not change.
 pub(super) fn stretched(image: &GrayImage32) -> Option<GrayImage32> {
     let mut values = image.as_raw().clone();
     let last = values.len().checked_sub(1)?;

@@ -1,12 +1,12 @@
-//! Share of the image that the boards cover.
+//! Fraction of the image covered by boards.
 
 use super::BoardView;
 use nalgebra::Point2;
 
-/// Cells along the longer side.
+/// Number of cells along the longer side.
 const CELLS: u32 = 100;
 
-/// The share of the image's area that lies inside the outline of the marks of at least one view.
+/// Returns the fraction of the image's area inside the outline of the marks of at least one view.
 pub(super) fn coverage(views: &[&BoardView], (width, height): (u32, u32)) -> f64 {
     let cell = f64::from(width.max(height)) / f64::from(CELLS);
     let cells = |side: u32| (f64::from(side) / cell).ceil().max(1.0) as u32;

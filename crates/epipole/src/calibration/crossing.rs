@@ -1,8 +1,8 @@
-//! A chessboard's corner to a hundredth of a pixel: two blurred edges that cross, fitted to the
-//! gray values.
+//! Chessboard corners to a hundredth of a pixel: fits two crossing blurred edges to the gray
+//! values.
 //!
-//! Gradients are strong on the edges and locate them, but every pixel of the squares' borders has
-//! information, which a fit to the gray values weighs optimally. On coarse renderings its error is
+//! Gradients use only the strong edges, but every pixel at the squares' borders carries
+//! information, which a fit to the gray values weights optimally. On coarse renderings its error is
 //! less than half that of gradients alone.
 
 use crate::imaging::GrayImage32;
@@ -10,22 +10,22 @@ use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, minimiz
 use core::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, PI};
 use nalgebra::{Point2, SVector, Vector2};
 
-/// Of a lens that no photograph has; sharper edges are all alike.
+/// Minimum blur: no image is sharper, and sharper edges all look alike.
 const LEAST_BLUR_PX: f64 = 0.2;
-/// Edges that cross under a smaller sine are poorly localized along themselves.
+/// Minimum sine between the edges: at smaller angles corners are poorly localized along the edges.
 const LEAST_SINE: f64 = 0.3;
-/// Half the difference of bright and dark, of a range of 1; less is no corner.
+/// Minimum half-difference of bright and dark, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.02;
-/// Fewer pixels than this do not determine nine numbers well.
+/// Minimum number of pixels to determine nine parameters well.
 const LEAST_PIXELS: usize = 25;
 
 /// The gray `m + c·Φ(d₁/σ)·Φ(d₂/σ) + s·x`, where dᵢ is the distance from edge i and
 /// `Φ(x) = erf(x/√2)`.
 #[derive(Debug, Clone, Copy)]
 struct Crossing {
-    /// Relative to the middle of the window.
+    /// Position relative to the middle of the window.
     place: Vector2<f64>,
-    /// Directions of the edges.
+    /// Directions of the two edges.
     angles_rad: [f64; 2],
     /// σ.
     blur_px: f64,
@@ -33,15 +33,16 @@ struct Crossing {
     middle: f64,
     /// c; negative if the other two quadrants are bright.
     contrast: f64,
-    /// s: light falls off over the board.
+    /// s: illumination gradient over the board.
     slope: Vector2<f64>,
 }
 
-/// A pixel relative to the middle of the window: its place and its gray.
+/// A pixel relative to the middle of the window: position and gray value.
 type Sample = [f64; 3];
 
 impl Crossing {
-    /// The gray at a place, and its derivatives by place, angles, blur, middle, contrast and slope.
+    /// Returns the gray value at a position, and its derivatives by position, angles, blur, middle,
+    /// contrast and slope.
     fn gray(&self, x: f64, y: f64) -> (f64, SVector<f64, 9>) {
         let (dx, dy) = (x - self.place.x, y - self.place.y);
         let scale = FRAC_1_SQRT_2 / self.blur_px;
@@ -53,7 +54,7 @@ impl Crossing {
             (sine, cosine, across, along, libm::erf(t), rise)
         };
         let [a, b] = self.angles_rad.map(edge);
-        // By the distances from the edges.
+        // Derivatives by the distances from the edges.
         let (by_a, by_b) = (self.contrast * a.5 * b.4, self.contrast * a.4 * b.5);
         let derivatives = SVector::from([
             by_a * a.0 + by_b * b.0,
@@ -70,7 +71,7 @@ impl Crossing {
         (gray, derivatives)
     }
 
-    /// Middle and contrast by linear least squares, the edges as they are.
+    /// Fits middle and contrast by linear least squares, with fixed edges.
     fn with_levels(mut self, samples: &[Sample]) -> Self {
         (self.middle, self.contrast) = (0.0, 1.0);
         let count = samples.len() as f64;
@@ -124,12 +125,12 @@ impl FixedProblem<9> for Problem<'_> {
     }
 }
 
-/// The corner near a place, from the pixels of a disk around it; `None` if these show no corner.
+/// Fits the corner near a position to the pixels of a disk around it; `None` if there is no corner.
 ///
-/// * `edges`: roughly the directions of the two edges
-/// * `radius_px`: of the disk, which must stay within the four squares
+/// * `edges`: approximate directions of the two edges
+/// * `radius_px`: radius of the disk, which must stay within the four squares
 ///
-/// Source: least squares; the profile of an edge is that of a step under a Gaussian point spread.
+/// Source: least squares; the profile of an edge is a step blurred by a Gaussian.
 pub(super) fn fit_crossing(
     image: &GrayImage32,
     near: &Point2<f64>,
@@ -174,7 +175,7 @@ pub(super) fn fit_crossing(
     minimize_fixed(&problem, &mut crossing, &options).ok()?;
     let sine = libm::sin(crossing.angles_rad[0] - crossing.angles_rad[1]).abs();
     let mean_sq = 2.0 * problem.cost(&crossing) / samples.len() as f64;
-    // The residual must be small beside the contrast of the corner. Comparisons are false for NaN.
+    // The residual must be small relative to the corner's contrast. Comparisons are false for NaN.
     let is_corner = crossing.place.norm() <= 0.5 * radius_px
         && crossing.blur_px <= radius_px
         && sine >= LEAST_SINE
@@ -183,9 +184,9 @@ pub(super) fn fit_crossing(
     is_corner.then(|| near + crossing.place)
 }
 
-/// The directions of a chessboard's edges in a mark, from the marks beside it.
+/// Returns the directions of a chessboard's edges in a mark, from the adjacent marks.
 ///
-/// * `beside`: of each axis the mark before and the mark behind, where they are seen
+/// * `beside`: for each axis the previous and the next mark, if visible
 pub(super) fn edges_through(
     mark: &Point2<f64>,
     beside: [[Option<Point2<f64>>; 2]; 2],
@@ -208,7 +209,7 @@ mod tests {
     use image::Luma;
     use nalgebra::{DMatrix, DVector};
 
-    /// Two edges through a place, each pixel the mean of 3 × 3 samples, in 8 bits.
+    /// Two edges through a position, each pixel the mean of 3 × 3 samples, in 8 bits.
     fn corner(place: &Point2<f64>, angles_rad: [f64; 2]) -> GrayImage32 {
         let sides = angles_rad.map(libm::sincos);
         GrayImage32::from_fn(31, 31, |u, v| {
@@ -249,7 +250,7 @@ mod tests {
         assert!(check_jacobian(&analytic, &residuals, 1e-6) < 1e-6);
     }
 
-    /// Gradients alone are off by .08 px on such pictures.
+    /// Gradients alone have errors of .08 px on these images.
     #[test]
     fn coarse_corners_are_found_to_a_few_hundredths_of_a_pixel() {
         let mut random = Random::new(1);
@@ -272,7 +273,7 @@ mod tests {
         assert!(rms_px < 0.04, "{rms_px}");
     }
 
-    /// Directions from marks nearby are off by a few degrees.
+    /// Directions from nearby marks have errors of a few degrees.
     fn random_off(place: &Point2<f64>) -> f64 {
         0.1 * libm::sin(100.0 * (place.x + place.y))
     }

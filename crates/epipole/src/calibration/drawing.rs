@@ -1,4 +1,4 @@
-//! Boards as black shapes on white.
+//! Drawings of boards as black shapes on white.
 
 use super::board_markers::{BoardMarkers, board_markers};
 use super::{Board, Pattern};
@@ -6,10 +6,10 @@ use nalgebra::{Point2, Vector2};
 
 /// Radius of a disk in a grid with shifted rows, squares.
 const SHIFTED_DISK: f64 = 0.45;
-/// Radius of a disk in a grid of rows and columns, squares.
+/// Radius of a disk in a grid with aligned rows, squares.
 const DISK: f64 = 0.3;
 
-/// Black shapes of a board, which do not overlap. The unit is a square of the board: multiply by
+/// Black shapes of a board, without overlaps. The unit is a square of the board: multiply by
 /// [`Board::square_m`] for meters. The first mark is at the origin, y points down.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BoardDrawing {
@@ -22,12 +22,12 @@ pub struct BoardDrawing {
 }
 
 impl Board {
-    /// Everything on the board that is black.
+    /// Returns the black shapes of the board.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::calibration::{Board, Pattern};
-    /// // 4 × 4 squares, of which half are black, the first one among them.
+    /// // 4 × 4 squares, half of them black, including the first.
     /// let drawing = Board::new(Pattern::Chessboard, 3, 3, 0.02)?.drawing();
     /// assert_eq!(drawing.rectangles.len(), 8);
     /// assert_eq!(drawing.rectangles[0][1], nalgebra::Point2::origin());
@@ -67,7 +67,7 @@ impl Board {
     }
 }
 
-/// The black squares at the corners of the tags.
+/// Returns the black squares at the corners of the tags.
 fn squares_between_tags(board: &Board, spacing: f64) -> Vec<[Point2<f64>; 2]> {
     let (columns, rows) = (board.columns() / 2, board.rows() / 2);
     let first = |k: usize| k as f64 * (1.0 + spacing) - spacing;
@@ -76,7 +76,7 @@ fn squares_between_tags(board: &Board, spacing: f64) -> Vec<[Point2<f64>; 2]> {
         .collect()
 }
 
-/// Black rectangles of a marker.
+/// Returns the black rectangles of a marker.
 fn black_of_marker(markers: &BoardMarkers, id: usize) -> Vec<[Point2<f64>; 2]> {
     let border = markers.border_bits;
     let side = markers.dictionary.num_bits() + 2 * border;

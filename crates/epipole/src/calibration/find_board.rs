@@ -1,4 +1,4 @@
-//! A board in a photograph.
+//! Detection of a board in an image.
 
 use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
@@ -14,32 +14,32 @@ use crate::imaging::{Border, GrayImage32, pyramid_down};
 use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::Point2;
 
-/// Maximum length of the longer side of the image in which the search starts, pixels.
+/// Maximum longer side of the image in which the search starts, pixels.
 const FIRST_SIDE: u32 = 1300;
-/// Finds a board's marks to a fraction of a pixel.
+/// Finds a board's marks with sub-pixel accuracy.
 ///
 /// A chessboard may be partly hidden: half of its corners must be visible, and at least two in each
 /// of its outermost rows and columns. The first corner has a dark square on its inner side, towards
 /// the other corners; if two do (both numbers of corners even, or both odd), the upper left one is
-/// first. The disks of a circle grid are darker than the board, or brighter.
+/// first. The disks of a circle grid may be darker or brighter than the board.
 ///
-/// Of a board with markers any part is enough that shows one marker and six marks in two rows and
-/// two columns: the markers tell which ones.
+/// For a board with markers any part suffices that shows one marker and six marks in two rows and
+/// two columns, as the markers identify the marks.
 ///
-/// An image of little contrast in which nothing is found is stretched and searched again.
+/// If nothing is found in an image of low contrast, it is stretched and searched again.
 ///
 /// * `image`: gray values in [0, 1]
 ///
-/// The one stage is [`Stage::FeatureDetection`].
+/// The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled);
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for an invalid pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
 ///
 /// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing
-/// using circular boundaries"; refined by [`refine_corners`], then by two blurred edges that cross,
-/// fitted to the gray values.
+/// using circular boundaries"; refined by [`refine_corners`], then by fitting two crossing blurred
+/// edges to the gray values.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -75,7 +75,7 @@ pub fn find_board(
     Ok(found)
 }
 
-/// Finds a board in an image of usual contrast.
+/// Finds a board in an image of normal contrast.
 fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Result<BoardSearch> {
     if board.pattern().has_markers() {
         return find_marker_board(image, board, monitor);
@@ -90,7 +90,7 @@ fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Resu
         .iter()
         .position(|level| level.width().max(level.height()) <= FIRST_SIDE)
         .unwrap_or(levels.len() - 1);
-    // Finer for small squares, then coarser for blurred ones.
+    // Finer levels for small squares, then coarser ones for blurred squares.
     let mut order: Vec<usize> = (0..=first).rev().collect();
     order.extend(first + 1..levels.len());
     let mut best = BoardSearch::Nothing;
@@ -124,7 +124,7 @@ fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Resu
     Ok(best.unless_by_chance())
 }
 
-/// Corners to a fraction of a pixel. Those that do not stay where they are are left out.
+/// Refines corners with sub-pixel accuracy. Corners that move too far are dropped.
 fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
@@ -142,8 +142,8 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
     Ok(BoardView { pixels })
 }
 
-/// The marks beside one, as in [`BoardView::beside`]; along an axis without any, they are
-/// extrapolated from the nearest mark that has neighbors.
+/// Returns the adjacent marks, as in [`BoardView::beside`]; along an axis without any, they are
+/// extrapolated from the nearest mark with neighbors.
 fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>>; 2]; 2] {
     let mut beside = view.beside(mark, columns);
     for (axis, pair) in beside.iter_mut().enumerate() {
@@ -194,7 +194,7 @@ mod tests {
         ]
     }
 
-    /// Largest and root mean square distance from the truth.
+    /// Maximum and RMS distance from the truth.
     fn errors(found: &BoardView, truth: &BoardView) -> (f64, f64) {
         let errors: Vec<f64> = found
             .seen()
@@ -242,7 +242,7 @@ mod tests {
         assert!(num_poses >= 8 && num_found == num_poses);
     }
 
-    /// Sixteen gray values of an 8-bit image, as thermal cameras give them.
+    /// Sixteen gray values of an 8-bit image, as from thermal cameras.
     #[test]
     fn a_board_of_little_contrast_is_found() {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
@@ -266,7 +266,7 @@ mod tests {
         let pose = poses(&board, 1, 17.0, 3)[0];
         let truth = true_view(&board, &camera, &pose);
         let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
-        // A hand over some eight corners of the interior.
+        // A hand over about eight corners of the interior.
         let (a, b) = (truth.pixels[12].unwrap(), truth.pixels[33].unwrap());
         for (u, v, value) in image.enumerate_pixels_mut() {
             let p = Point2::new(f64::from(u), f64::from(v));
@@ -280,8 +280,8 @@ mod tests {
         assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
     }
 
-    /// Corners at the rim of an occlusion, some without neighbors along a row or a column, are as
-    /// exact as the others.
+    /// Corners at the rim of an occlusion, some without neighbors along a row or column, are as
+    /// accurate as the others.
     #[test]
     fn corners_beside_a_hand_are_exact() {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
@@ -340,8 +340,8 @@ mod tests {
                         continue;
                     };
                     assert_eq!(view.num_seen(), 44);
-                    // The center of an ellipse is not the image of the disk's center, by a tenth of
-                    // a pixel.
+                    // The center of an ellipse differs from the projection of the disk's center by
+                    // a tenth of a pixel.
                     let (largest, rms) = errors(&view, &truth);
                     assert!(
                         largest < 0.4 && rms < 0.15,
@@ -355,7 +355,7 @@ mod tests {
         assert!(num_poses >= 3 && num_found == 2 * num_poses);
     }
 
-    /// In rows and columns, the first disk in the upper left, whatever turns the board.
+    /// In rows and columns, the first disk at the upper left, for any rotation of the board.
     #[test]
     fn circles_in_rows_are_found() {
         let board = Board::new(Pattern::Circles, 7, 5, 0.03).unwrap();
@@ -366,7 +366,7 @@ mod tests {
                 photograph_of_board(&board, &camera, pose, 0.01, seed as u64, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             assert_eq!(view.num_seen(), 35);
-            // The center of an ellipse is not the image of the disk's center.
+            // The center of an ellipse differs from the projection of the disk's center.
             let (largest, rms) = errors(&view, &truth);
             assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
         }

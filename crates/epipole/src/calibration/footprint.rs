@@ -1,20 +1,20 @@
-//! Areas that the footprint of a pixel shares with rectangles and disks.
+//! Overlap areas of a pixel's footprint with rectangles and disks.
 
 use arrayvec::ArrayVec;
 use nalgebra::Point2;
 
-/// The convex quadrilateral of a plane that a pixel sees.
+/// The convex quadrilateral of a plane seen by a pixel.
 pub(super) struct Footprint {
     corners: [Point2<f64>; 4],
 }
 
 impl Footprint {
-    /// * `corners`: in order along its outline, in either sense
+    /// * `corners`: in order along the outline, in either orientation
     pub(super) fn new(corners: [Point2<f64>; 4]) -> Self {
         Self { corners }
     }
 
-    /// Smallest and largest coordinates.
+    /// Returns the minimum and maximum coordinates.
     pub(super) fn bounds(&self) -> [Point2<f64>; 2] {
         let first = self.corners[0];
         self.corners
@@ -26,11 +26,11 @@ impl Footprint {
         area(&self.corners)
     }
 
-    /// The area within the rectangle from `low` to `high`.
+    /// Returns the area within the rectangle from `low` to `high`.
     ///
     /// Source: Sutherland and Hodgman 1974, "Reentrant polygon clipping".
     pub(super) fn area_in_rectangle(&self, low: Point2<f64>, high: Point2<f64>) -> f64 {
-        // Each of four cuts adds one corner at most.
+        // Each of four cuts adds at most one corner.
         let mut polygon: ArrayVec<Point2<f64>, 8> = self.corners.into_iter().collect();
         for axis in 0..2 {
             for (limit, sign) in [(low[axis], 1.0), (high[axis], -1.0)] {
@@ -50,7 +50,7 @@ impl Footprint {
     }
 }
 
-/// The part of a convex polygon where `height`, which is linear, is not negative.
+/// Returns the part of a convex polygon where the linear function `height` is not negative.
 fn cut(polygon: &[Point2<f64>], height: impl Fn(&Point2<f64>) -> f64) -> ArrayVec<Point2<f64>, 8> {
     let mut kept = ArrayVec::new();
     for (i, p) in polygon.iter().enumerate() {
@@ -78,12 +78,12 @@ fn area(polygon: &[Point2<f64>]) -> f64 {
     twice.abs() / 2.0
 }
 
-/// The signed area that the triangle of the origin, `p` and `q` shares with the unit disk.
+/// Returns the signed overlap area of the triangle of the origin, `p` and `q` with the unit disk.
 fn sector(p: Point2<f64>, q: Point2<f64>) -> f64 {
     let pie = |a: &Point2<f64>, b: &Point2<f64>| {
         libm::atan2(a.coords.perp(&b.coords), a.coords.dot(&b.coords)) / 2.0
     };
-    // The part of the edge within the disk: |p + t (q − p)|² ≤ 1.
+    // Part of the edge within the disk: |p + t (q − p)|² ≤ 1.
     let along = q - p;
     let (a, b, c) = (
         along.norm_squared(),
@@ -112,7 +112,7 @@ mod tests {
         Footprint::new(corners.map(Point2::from))
     }
 
-    /// The share of a fine grid of points that are in the footprint and in `region`.
+    /// Fraction of a fine grid of points in the footprint and in `region`.
     fn counted(of: &Footprint, region: impl Fn(&Point2<f64>) -> bool) -> f64 {
         const SIDE: usize = 1000;
         let [low, high] = of.bounds();
@@ -161,9 +161,9 @@ mod tests {
         let whole = seen.area_in_disk(Point2::new(0.3, -0.4), 1.5);
         assert!((whole - PI * 2.25).abs() < 1e-12);
         assert!(seen.area_in_disk(Point2::new(4.0, 4.0), 1.5).abs() < 1e-12);
-        // A disk around the whole.
+        // A disk that contains the footprint.
         assert!((seen.area_in_disk(Point2::origin(), 9.0) - 16.0).abs() < 1e-12);
-        // Its middle on an edge, and on a corner.
+        // Centered on an edge, and on a corner.
         let half = seen.area_in_disk(Point2::new(2.0, 0.0), 1.0);
         assert!((half - PI / 2.0).abs() < 1e-12);
         let quarter = seen.area_in_disk(Point2::new(2.0, 2.0), 1.0);

@@ -1,13 +1,13 @@
-//! Points with whole-number coordinates in a bent and slanted grid.
+//! Points with integer coordinates in a distorted grid.
 
 use nalgebra::Point2;
 use std::collections::BTreeMap;
 
-/// A place in the grid.
+/// Grid coordinates.
 pub(super) type Cell = (i32, i32);
 
-/// A point may be so far, as a share of a step, from where others expect it: perspective and lenses
-/// bend rows.
+/// Maximum distance of a point from its prediction, relative to a step: perspective and lenses bend
+/// rows.
 const MOST_STRAYED: f64 = 0.3;
 
 /// Positions of points in a grid.
@@ -24,7 +24,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// Cells along both axes.
+    /// Returns the number of cells along both axes.
     pub(super) fn size(&self) -> (usize, usize) {
         (
             (self.most.0 - self.least.0 + 1) as usize,
@@ -48,8 +48,8 @@ impl Lattice {
         Some(extent)
     }
 
-    /// Predicts the neighbor in a direction, by continuing the two points before it or a
-    /// neighboring row.
+    /// Predicts the neighbor in a direction by continuing the previous two points or an adjacent
+    /// row.
     pub(super) fn predict(&self, (i, j): Cell) -> Option<Point2<f64>> {
         let at = |di: i32, dj: i32| self.points.get(&(i + di, j + dj));
         let mut sum = nalgebra::Vector2::zeros();
@@ -74,7 +74,7 @@ impl Lattice {
         (count > 0.0).then(|| Point2::from(sum / count))
     }
 
-    /// The mean distance from a cell's point to its neighbors.
+    /// Returns the mean distance from a cell's point to its neighbors.
     pub(super) fn spacing(&self, (i, j): Cell, at: &Point2<f64>) -> Option<f64> {
         let (mut sum, mut count) = (0.0, 0.0);
         for (di, dj) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
@@ -86,8 +86,8 @@ impl Lattice {
         (count > 0.0).then(|| sum / count)
     }
 
-    /// Distance of a point from the prediction of its row and column, as a share of a step; the
-    /// lower median of all predictions.
+    /// Returns the distance of a point from the prediction of its row and column, relative to a
+    /// step; the lower median of all predictions.
     fn strayed(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
         let mut shares = Vec::new();
         for (di, dj) in [(1, 0), (0, 1)] {
@@ -108,8 +108,7 @@ impl Lattice {
         Some(shares[middle])
     }
 
-    /// Removes points far from the continuation of their rows and columns, and those that are in
-    /// none.
+    /// Removes points far from the continuation of their rows and columns, and isolated points.
     pub(super) fn drop_strays(&mut self) {
         let strays: Vec<Cell> = self
             .points
@@ -125,7 +124,7 @@ impl Lattice {
         }
     }
 
-    /// Empty cells beside filled ones, within one step around the grid.
+    /// Returns the empty cells adjacent to filled ones, up to one step outside the grid.
     pub(super) fn open_cells(&self) -> Vec<Cell> {
         let mut open: Vec<Cell> = self
             .points
@@ -138,7 +137,7 @@ impl Lattice {
         open
     }
 
-    /// The lattice seen in other axes.
+    /// Returns the lattice in other axes.
     pub(super) fn mapped(&self, map: impl Fn(Cell) -> Cell) -> Self {
         Self {
             points: self

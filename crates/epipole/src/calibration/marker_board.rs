@@ -1,4 +1,4 @@
-//! The marks of a board whose markers tell which ones are seen.
+//! Detection of the marks of a board with markers.
 
 use super::board_markers::{BoardMarkers, board_markers};
 use super::board_search::BoardSearch;
@@ -11,16 +11,16 @@ use crate::imaging::GrayImage32;
 use crate::progress::Monitor;
 use nalgebra::{Matrix3, Point2, center};
 
-/// Minimum number of marks, which lie in two rows and two columns at least.
+/// Minimum number of marks, which lie in at least two rows and two columns.
 const LEAST_MARKS: usize = 6;
-/// Maximum distance of two markers that are compared, squares.
+/// Maximum distance between two markers to compare, squares.
 const COMPARED: f64 = 3.0;
-/// Maximum distance of a marker from where another one expects it, as a share of their distance.
+/// Maximum distance of a marker from its prediction by another one, relative to their distance.
 const MOST_STRAYED: f64 = 0.2;
 /// Maximum distance of a mark from the middle of a marker that predicts it, squares.
 const BESIDE: f64 = 0.8;
 
-/// Looks for a board with markers. Its marks are exact to a fraction of a pixel.
+/// Finds a board with markers. Its marks have sub-pixel accuracy.
 pub(super) fn find_marker_board(
     image: &GrayImage32,
     board: &Board,
@@ -57,8 +57,8 @@ pub(super) fn find_marker_board(
     })
 }
 
-/// The largest set of markers in which each stands to others nearby as on the board, one of a
-/// number.
+/// Returns the largest set of markers that agree with the board's arrangement relative to nearby
+/// ones, at most one per number.
 fn largest_agreeing(found: &[Marker], markers: &BoardMarkers) -> Vec<Marker> {
     let of_board: Vec<&Marker> = found
         .iter()
@@ -102,7 +102,7 @@ fn largest_agreeing(found: &[Marker], markers: &BoardMarkers) -> Vec<Marker> {
     agreed
 }
 
-/// Whether a marker is where another one expects it.
+/// Returns whether a marker is at the position predicted by another one.
 fn expects(
     pixel_from_square: &Option<Matrix3<f64>>,
     from: &Marker,
@@ -123,7 +123,7 @@ fn middle(corners: &[Point2<f64>; 4]) -> Point2<f64> {
     )
 }
 
-/// The homography of the markers beside a mark.
+/// Returns the homography of the markers next to a mark.
 fn beside(
     mark: usize,
     board: &Board,
@@ -177,7 +177,7 @@ mod tests {
         }
     }
 
-    /// A ChArUco board and an AprilGrid, each with poses that show all of it.
+    /// A ChArUco board and an AprilGrid, each with poses that show the whole board.
     fn boards() -> [(Board, Vec<RigidTransform>); 2] {
         let charuco = Board::new(CHARUCO, 7, 5, 0.03).unwrap();
         let tags = Board::new(Pattern::AprilGrid { spacing: 0.3 }, 4, 3, 0.06).unwrap();
@@ -195,7 +195,7 @@ mod tests {
         })
     }
 
-    /// Number of marks, largest and root mean square distance from the truth.
+    /// Number of marks, maximum and RMS distance from the truth.
     fn search(image: &GrayImage32, board: &Board, pose: &RigidTransform) -> (usize, f64, f64) {
         let truth = true_view(board, &camera(), pose);
         let search = find_board(image, board, &mut ()).unwrap();
@@ -228,7 +228,7 @@ mod tests {
         }
     }
 
-    /// Neighbors predict marks to a fraction of a pixel even where the lens bends most.
+    /// Neighbors predict marks accurately even where the lens distorts most.
     #[test]
     fn fisheyes_see_all_marks() {
         let camera = Camera {
@@ -296,7 +296,7 @@ mod tests {
                 let mut image =
                     photograph_of_board(&board, &camera(), pose, 0.01, 3, &mut ()).unwrap();
                 let edge = Point2::new(0.4 * last.x, 0.4 * last.y);
-                // The edge of what hides it, on the board, as a line in the image.
+                // The edge of the occluder, on the board, as a line in the image.
                 let ends = match axis {
                     0 => [[edge.x, -1.0], [edge.x, 1.0]],
                     _ => [[1.0, edge.y], [-1.0, edge.y]],

@@ -1,15 +1,15 @@
-//! Cameras from photographs of a board: intrinsics, lens, and where a second camera stands.
+//! Camera calibration with boards: intrinsics, lens, and the pose of a second camera.
 //!
-//! 1. [`find_board`] finds the marks of a chessboard, a grid of circles, a ChArUco board or an
-//!    AprilGrid in a photograph; [`detect_markers`] finds ArUco markers and AprilTags alone.
-//! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, and says how
-//!    sure each number is.
-//! 3. [`calibrate_rig`] adds how a second camera stands beside the first.
-//! 4. [`photograph_of_board`] makes photographs to try this on, with exact truth.
-//! 5. [`Undistortion`] redraws photographs as a camera without distortion would show them.
+//! 1. [`find_board`] finds the marks of a chessboard, circle grid, ChArUco board or AprilGrid in an
+//!   image; [`detect_markers`] finds ArUco markers and AprilTags alone.
+//! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, with the
+//!   uncertainty of each parameter.
+//! 3. [`calibrate_rig`] adds the pose of a second camera relative to the first.
+//! 4. [`photograph_of_board`] renders test images with exact ground truth.
+//! 5. [`Undistortion`] undistorts images.
 //!
-//! A board lies in its own plane z = 0: x along its columns, y along its rows, the first corner at
-//! the origin.
+//! The frame of a board has its plane at z = 0, x along its rows, y along its columns, and the
+//! first corner at the origin.
 
 mod advice;
 mod blobs;

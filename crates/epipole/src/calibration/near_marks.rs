@@ -1,4 +1,4 @@
-//! Marks of a board that are found by their neighbors.
+//! Search for the marks of a board from their neighbors.
 
 use super::board_markers::BoardMarkers;
 use super::refine_mark::{Reach, refine_mark};
@@ -8,23 +8,23 @@ use crate::homography::{fit_homography, transfer};
 use crate::imaging::{Border, GrayImage32, sample_bilinear};
 use nalgebra::{Matrix3, Point2, Vector2};
 
-/// Maximum distance of neighbors that predict a mark, along rows and along columns.
+/// Maximum distance of neighbors that predict a mark, along rows and columns.
 const NEIGHBORHOOD: usize = 3;
-/// Neighbors that predict a mark.
+/// Number of neighbors that predict a mark.
 const NEIGHBORS: core::ops::RangeInclusive<usize> = 5..=10;
-/// A mark is dropped if it is farther from its prediction than this many pixels, and this many
-/// times the median of all marks: lenses bend, and extrapolation adds errors.
+/// Maximum distance of a mark from its prediction: this many pixels, and this many times the median
+/// of all marks, as lenses bend rows and extrapolation adds errors.
 const MOST_STRAYED: (f64, f64) = (0.3, 8.0);
 /// Minimum difference of bright and dark around a mark, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.04;
-/// Opposite quadrants differ by no more than this share of the contrast.
+/// Maximum difference of opposite quadrants, relative to the contrast.
 const MOST_UNEVEN: f64 = 0.6;
 
 /// Marks found so far.
 pub(super) struct NearMarks<'a> {
     image: &'a GrayImage32,
     board: &'a Board,
-    /// As a share of a square.
+    /// Reach relative to a square.
     reach: Reach,
     pixels: Vec<Option<Point2<f64>>>,
 }
@@ -39,13 +39,13 @@ impl<'a> NearMarks<'a> {
         }
     }
 
-    /// Looks for a mark where a homography expects it.
+    /// Searches for a mark at the position predicted by a homography.
     pub(super) fn add(&mut self, mark: usize, pixel_from_square: &Matrix3<f64>) -> Result<bool> {
         self.pixels[mark] = self.at(mark, pixel_from_square)?;
         Ok(self.pixels[mark].is_some())
     }
 
-    /// Looks for the other marks from those that are found, and drops those that do not fit.
+    /// Searches for the other marks from those found, and drops those that do not fit.
     pub(super) fn grow(&mut self) -> Result<()> {
         self.drop_strays();
         for _ in 0..self.board.columns().max(self.board.rows()) {
@@ -81,8 +81,8 @@ impl<'a> NearMarks<'a> {
         Ok(refined.filter(|pixel| self.has_right_colors(mark, pixel, &steps, radius_px)))
     }
 
-    /// Pixel of a mark, and of a step of one square along the board's axes there; `None` if it is
-    /// not in the image.
+    /// Predicts the pixel of a mark, and that of a step of one square along the board's axes there;
+    /// `None` if outside the image.
     fn predicted(
         &self,
         mark: usize,
@@ -104,7 +104,7 @@ impl<'a> NearMarks<'a> {
         is_inside.then_some((pixel, steps))
     }
 
-    /// Whether the two dark quadrants are where the board has them.
+    /// Returns whether the two dark quadrants agree with the board.
     fn has_right_colors(
         &self,
         mark: usize,
@@ -118,7 +118,7 @@ impl<'a> NearMarks<'a> {
             f64::from(sample_bilinear(self.image, p.x, p.y, Border::Replicate))
         };
         let mut pairs = [[gray(a + b), gray(-a - b)], [gray(a - b), gray(b - a)]];
-        // Squares are dark whose column and row have an even sum; so are the quadrants at tags.
+        // Squares with an even sum of column and row are dark; so are the quadrants at tags.
         let columns = self.board.columns();
         if (mark % columns + mark / columns) % 2 == 1 {
             pairs.swap(0, 1);
@@ -129,7 +129,7 @@ impl<'a> NearMarks<'a> {
         contrast >= LEAST_CONTRAST && off <= MOST_UNEVEN * contrast
     }
 
-    /// The homography of the nearest marks around one, without itself.
+    /// Returns the homography of the nearest marks around one, without itself.
     fn around(&self, mark: usize) -> Option<Matrix3<f64>> {
         let columns = self.board.columns();
         let (column, row) = (mark % columns, mark / columns);
@@ -159,7 +159,7 @@ impl<'a> NearMarks<'a> {
         fit_homography(&squares, &pixels).ok()
     }
 
-    /// Drops the mark that is farthest from where its neighbors expect it, until all are near.
+    /// Drops the mark farthest from its prediction, until all are close.
     fn drop_strays(&mut self) {
         loop {
             let strayed = |mark: usize| {

@@ -1,5 +1,5 @@
-//! A calibration as a least-squares problem: one camera or two, the board's pose in every view, the
-//! pixels.
+//! Calibration as a least-squares problem: one or two cameras, the pose of the board in every view,
+//! and the pixels.
 
 use crate::camera::moving_pose::PoseState;
 use crate::camera::{Intrinsics, Lens, LensKind, RigidTransform};
@@ -11,22 +11,22 @@ use crate::progress::Monitor;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Numbers of a camera: fu, fv, cu, cv and those of its lens.
+/// Number of parameters of a camera: fu, fv, cu, cv and those of its lens.
 pub(super) const OF_CAMERA: usize = 12;
-/// The motion of a rig, and two cameras.
+/// Number of parameters of the motion of a rig and two cameras.
 pub(super) const SHARED: usize = 6 + 2 * OF_CAMERA;
 
-/// A mark of the board is seen at a pixel.
+/// A mark of the board with its pixel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SeenMark {
     pub(super) view: usize,
     pub(super) mark: usize,
-    /// 0, or 1 for the second camera of a rig.
+    /// 1 for the second camera of a rig, else 0.
     pub(super) eye: usize,
     pub(super) pixel: Point2<f64>,
 }
 
-/// Everything that is estimated.
+/// All estimated parameters.
 #[derive(Clone)]
 pub(super) struct State {
     /// `cam1_from_board` of each view.
@@ -46,7 +46,7 @@ pub(super) fn pose_state(pose: &RigidTransform) -> PoseState {
     PoseState::new(pose.rotation, pose.translation.vector)
 }
 
-/// The numbers of a camera, as they are estimated.
+/// Returns the parameters of a camera.
 pub(super) fn camera_numbers(k: &Intrinsics, lens: &Lens) -> [f64; OF_CAMERA] {
     let center = k.principal_point();
     let mut numbers = [0.0; OF_CAMERA];
@@ -56,18 +56,18 @@ pub(super) fn camera_numbers(k: &Intrinsics, lens: &Lens) -> [f64; OF_CAMERA] {
     numbers
 }
 
-/// The lens of these parameters.
+/// Returns the lens with these parameters.
 pub(super) fn lens_of(kind: LensKind, numbers: &[f64; OF_CAMERA]) -> Lens {
     Lens::of(kind, core::array::from_fn(|i| numbers[4 + i]))
 }
 
 pub(super) struct Problem {
-    /// Marks in the board's plane, meters.
+    /// Marks in the plane of the board, meters.
     pub(super) marks: Vec<Point3<f64>>,
     pub(super) observations: Vec<SeenMark>,
     pub(super) num_views: usize,
     pub(super) kinds: [LensKind; 2],
-    /// Which of the rig's motion and of the two cameras are held.
+    /// Whether each parameter of the rig's motion and of the two cameras is held.
     pub(super) held: [bool; SHARED],
     pairs: Vec<(u32, u32)>,
 }
@@ -94,7 +94,7 @@ impl Problem {
         }
     }
 
-    /// Moves the state to the least sum of squares near it.
+    /// Moves the state to the nearest minimum of the sum of squares.
     pub(super) fn minimize(
         &self,
         state: &mut State,
@@ -104,8 +104,8 @@ impl Problem {
         minimize(&mut SchurSystem::new(self), state, options, monitor)
     }
 
-    /// The mark in the frame of the observing camera; also before the rig's motion, only rotated
-    /// and fully transformed.
+    /// Returns the mark in the frame of the observing camera, with the intermediate results of both
+    /// rotations.
     fn place(&self, state: &State, o: &SeenMark) -> Place {
         let pose = &state.views[o.view];
         let turned = pose.rotated(&self.marks[o.mark]);
@@ -125,8 +125,7 @@ impl Problem {
         }
     }
 
-    /// Root mean square of the distances between pixels and where the marks are predicted, of those
-    /// that count.
+    /// Returns the RMS reprojection error of the marks that count.
     pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&SeenMark) -> bool) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
         for (index, o) in self.observations.iter().enumerate() {
@@ -173,7 +172,7 @@ impl BundleProblem<6, SHARED> for Problem {
         let o = &self.observations[observation];
         let numbers = &state.cameras[o.eye];
         let lens = lens_of(self.kinds[o.eye], numbers);
-        // Points outside the lens's domain have no residual, and the loop does not step there.
+        // Points outside the lens's domain have no residual, and the solver does not step there.
         let Some(seen) = lens.project(&self.place(state, o).in_cam) else {
             return [f64::NAN; 2];
         };
@@ -240,7 +239,7 @@ impl BundleProblem<6, SHARED> for Problem {
     }
 }
 
-/// Options of the loop that are strict enough for the last digits of uncertain numbers.
+/// Returns solver options strict enough for the last digits of uncertain parameters.
 pub(super) fn strict(max_iterations: usize) -> LmOptions {
     LmOptions {
         max_iterations,
@@ -249,8 +248,8 @@ pub(super) fn strict(max_iterations: usize) -> LmOptions {
     }
 }
 
-/// An error where the least squares ran off: a focal length that is no longer positive, or no
-/// number.
+/// Returns the intrinsics; an error if the solver diverged to a focal length that is NaN or not
+/// positive.
 pub(super) fn intrinsics_of(numbers: &[f64; OF_CAMERA]) -> Result<Intrinsics> {
     Intrinsics::new(numbers[0], numbers[1], numbers[2], numbers[3]).map_err(|_| Error::Degenerate {
         what: "a calibration",
@@ -263,7 +262,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// Every derivative against central differences, both eyes, every lens.
+    /// Compares all derivatives with central differences, for both cameras and all lenses.
     #[test]
     fn derivatives_are_differences() {
         let mut random = Random::new(5);

@@ -1,4 +1,4 @@
-//! A corner where four squares meet, to a fraction of a pixel.
+//! Sub-pixel refinement of a corner of four squares.
 
 use super::crossing::fit_crossing;
 use crate::Result;
@@ -8,23 +8,23 @@ use nalgebra::{Point2, Vector2};
 
 const WINDOWS: (usize, usize) = (2, 15);
 const DISKS_PX: (f64, f64) = (3.0, 15.0);
-/// The two refinements agree to this share of the distance to the nearest mark, or something else
-/// is in the disk.
+/// Maximum difference of the two refinements, relative to the distance to the nearest mark; if
+/// larger, another object is in the disk.
 const AGREEMENT: f64 = 0.05;
 const LEAST_AGREEMENT_PX: f64 = 0.5;
 
-/// Parts of the image that a refinement uses, as shares of the distance to the nearest mark.
+/// Image regions of a refinement, relative to the distance to the nearest mark.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {
-    /// Half the side of the window of the refinement by gradients.
+    /// Half the side of the window of the gradient-based refinement.
     window: f64,
-    /// Radius of the disk in which two edges are fitted.
+    /// Radius of the disk in which the edges are fitted.
     disk: f64,
     /// Maximum distance from the start.
     stay: f64,
 }
 
-/// Nothing but four squares around each mark: the disk stays within them.
+/// Reach around marks with nothing but four squares: the disk stays within them.
 pub(super) const CLEAR_SQUARES: Reach = Reach {
     window: 0.3,
     disk: 0.45,
@@ -32,8 +32,8 @@ pub(super) const CLEAR_SQUARES: Reach = Reach {
 };
 
 impl Reach {
-    /// For marks that have nothing but their two edges within `clear`, a share of the distance to
-    /// the nearest mark.
+    /// Returns the reach for marks with nothing but their two edges within `clear`, relative to the
+    /// distance to the nearest mark.
     pub(super) fn within(clear: f64) -> Self {
         // A window is wider at its corners.
         let disk = (0.75 * clear).min(CLEAR_SQUARES.disk);
@@ -44,16 +44,16 @@ impl Reach {
         }
     }
 
-    /// Radius of the disk, pixels.
+    /// Returns the radius of the disk, pixels.
     pub(super) fn disk_px(&self, spacing: f64) -> f64 {
         (self.disk * spacing).clamp(DISKS_PX.0, DISKS_PX.1)
     }
 }
 
-/// The corner near a pixel: by gradients, and from there by two edges fitted to the gray values.
-/// `None` if there is none, or something else is near.
+/// Refines the corner near a pixel: by gradients, and from there by two edges fitted to the gray
+/// values. `None` if there is none, or another object is near.
 ///
-/// * `edges`: roughly the directions of the two edges
+/// * `edges`: approximate directions of the two edges
 /// * `spacing`: distance to the nearest mark, pixels
 pub(super) fn refine_mark(
     image: &GrayImage32,
@@ -69,7 +69,7 @@ pub(super) fn refine_mark(
     };
     let by_gradients = refine_corners(image, &[*pixel], &options, &mut ())?[0]
         .filter(|refined| (refined - pixel).norm() < reach.stay * spacing);
-    // A corner that the edges do not confirm may be the rim of a hand.
+    // A corner that the edges do not confirm may be the rim of an occluder.
     Ok(by_gradients.and_then(|start| {
         let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
         fit_crossing(image, &start, edges, reach.disk_px(spacing))

@@ -10,46 +10,47 @@ use crate::camera::{Camera, RigidTransform};
 use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
 
-/// Two cameras that are bolted together.
+/// Two rigidly connected cameras.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigCalibration {
     /// `x_in_right = right_from_left * x_in_left`, meters.
     pub right_from_left: RigidTransform,
     /// Distance between the cameras, meters.
     pub baseline_m: f64,
-    /// Root mean square of the reprojection errors in both cameras, pixels.
+    /// RMS reprojection error of both cameras, pixels.
     pub rms_px: f64,
-    /// One standard deviation of the rotation about the axes of the right camera, radians.
-    /// The intrinsics count as exact: what is unknown of them comes on top.
+    /// Standard deviation of the rotation about the axes of the right camera, radians. The
+    /// intrinsics are treated as exact; their uncertainty is not included.
     pub std_dev_rotation_rad: [f64; 3],
-    /// One standard deviation of the translation, meters.
-    /// The intrinsics count as exact: what is unknown of them comes on top.
+    /// Standard deviation of the translation, meters. The intrinsics are treated as exact; their
+    /// uncertainty is not included.
     pub std_dev_translation_m: [f64; 3],
-    /// For each pair given, the root mean square in both cameras, pixels; `None` where a board was
-    /// not seen by both.
+    /// RMS error in both cameras for each input pair, pixels; `None` if a board was not seen by
+    /// both.
     pub pairs_rms_px: Vec<Option<f64>>,
 }
 
-/// Boards count as turned if the disagreement of all pairs falls below this share.
+/// Boards count as rotated if the disagreement of all pairs falls below this ratio.
 const CLEARLY_LESS: f64 = 0.5;
 
-/// The motion between two calibrated cameras that minimizes the reprojection errors of a board that
-/// both saw at the same time. The cameras stay as they are.
+/// Estimates the motion between two calibrated cameras: minimizes the reprojection errors of a
+/// board that both see at the same time. The intrinsics do not change.
 ///
-/// A board that looks the same after half or a quarter of a turn, such as one of 7 × 5 corners, may
-/// be counted from another corner in the right view than in the left one, as by a camera that is
-/// mounted upside down. Of the turns those are taken with which all pairs agree.
+/// A board with rotational symmetry, such as one of 7 × 5 corners, may be numbered from another
+/// corner in the right view than in the left one, for instance if a camera is mounted upside down.
+/// The rotations on which all pairs agree are used.
 ///
 /// * `cameras`: left and right, from [`calibrate`](super::calibrate)
-/// * `left`, `right`: views of the same moments, in the same order; `None` where no board was found
-/// * `monitor`: hears after each step of the refinement, in the one stage [`Stage::Calibration`]
+/// * `left`, `right`: simultaneous views, in the same order; `None` if no board was found
+/// * `monitor`: notified after each step of the refinement, in the only stage,
+///   [`Stage::Calibration`]
 ///
 /// # Errors
 /// [`Error::TooFew`] if no board was seen by both, [`Error::SizeMismatch`] for lists of different
 /// length, and as [`calibrate`](super::calibrate).
 ///
-/// Source: Bradski & Kaehler 2008, "Learning OpenCV", ch. 12; the start is the motion, of those of
-/// single pairs, that agrees with the others best.
+/// Source: Bradski & Kaehler 2008, "Learning OpenCV", ch. 12; initialized with the motion of a
+/// single pair that agrees best with the others.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -114,7 +115,7 @@ pub fn calibrate_rig(
             board_pose(board, in_right, &cameras[1])?,
         ]);
     }
-    // For each pair the motion by each turn of the right board.
+    // For each pair, the motion for each rotation of the right board.
     let turns = board_turns(board);
     let motions: Vec<Vec<RigidTransform>> = poses
         .iter()
@@ -171,9 +172,9 @@ pub fn calibrate_rig(
     })
 }
 
-/// The motion that the pairs agree on best, and the turn of each pair.
+/// Returns the motion on which the pairs agree best, and the rotation of each pair.
 ///
-/// * `motions`: of each pair by each turn, without one first
+/// * `motions`: motions of each pair for each rotation, the identity first
 fn agreed(motions: &[Vec<RigidTransform>]) -> (RigidTransform, Vec<usize>) {
     let off = |a: &RigidTransform, b: &RigidTransform| {
         a.rotation.angle_to(&b.rotation)
@@ -224,7 +225,7 @@ mod tests {
             let left: Vec<_> = (poses.iter())
                 .map(|pose| Some(true_view(&board, &camera, pose)))
                 .collect();
-            // Every view is counted from a corner of its own.
+            // Every view is numbered from its own corner.
             let right = poses.iter().enumerate().map(|(n, pose)| {
                 let view = true_view(&board, &camera, &(truth * pose));
                 Some(turns[n % turns.len()].view(&view))
@@ -259,7 +260,7 @@ mod tests {
         let mut left: Vec<_> = poses.iter().map(|p| see(&cameras[0], *p)).collect();
         let mut right: Vec<_> = poses.iter().map(|p| see(&cameras[1], truth * p)).collect();
         left[1] = None;
-        // Something hides a part from the right camera.
+        // Part of the board is hidden from the right camera.
         right[3].as_mut().unwrap().pixels[10..30].fill(None);
         let found = calibrate_rig(&board, &cameras, &left, &right, &mut ()).unwrap();
         assert!(found.rms_px < 1e-6);

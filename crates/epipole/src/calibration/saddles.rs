@@ -1,4 +1,4 @@
-//! Places where two dark and two bright quadrants meet.
+//! Saddle points where two dark and two bright quadrants meet.
 
 use crate::feature::non_maximum_suppression;
 use crate::imaging::{Border, GrayImage32, from_vec, gaussian_blur, sample_bilinear};
@@ -6,29 +6,29 @@ use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2};
 
-/// A corner of a chessboard, maybe.
+/// A candidate corner of a chessboard.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Saddle {
     pub(super) place: Point2<f64>,
-    /// Unit vectors along the two edges. The quadrant from the first to the second, clockwise on
-    /// the screen, is dark.
+    /// Unit vectors along the two edges. The quadrant from the first to the second, clockwise in
+    /// the image, is dark.
     pub(super) edges: [Vector2<f64>; 2],
 }
 
-/// Blur before anything else, pixels: noise and the blocks of JPEG files make saddles of their own.
+/// Initial blur, pixels: noise and JPEG blocks create saddles.
 const SIGMA_PX: f64 = 1.4;
-/// The circles on which a corner must show four quadrants, pixels. One of a square of 9 pixels fits
-/// the first.
+/// Radii of the circles on which a corner must show four quadrants, pixels. The first fits into a
+/// square of 9 pixels.
 const RADII_PX: [f64; 2] = [4.0, 6.0];
 const SAMPLES: usize = 48;
-/// Bright and dark must differ by this, of a range of 1.
+/// Minimum difference between bright and dark, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.06;
-/// Opposite squares differ by no more than this share of the contrast.
+/// Maximum difference of opposite squares, relative to the contrast.
 const MOST_UNEVEN: f64 = 0.3;
-/// The weakest response, as a share of that of a sharp corner of full contrast after the blur.
+/// Minimum response, relative to that of a sharp corner of full contrast after the blur.
 const LEAST_SHARE: f32 = 2e-4;
 
-/// The image in which corners are looked for.
+/// The image in which to find corners.
 pub(super) struct SaddleImage {
     blurred: GrayImage32,
 }
@@ -41,7 +41,7 @@ impl SaddleImage {
         })
     }
 
-    /// All corners in it.
+    /// Finds all corners.
     pub(super) fn find(&self, monitor: &mut dyn Monitor) -> Result<Vec<Saddle>> {
         let (width, height) = self.blurred.dimensions();
         if width < 5 || height < 5 {
@@ -49,7 +49,7 @@ impl SaddleImage {
         }
         let (w, h) = (width as usize, height as usize);
         let values = self.blurred.as_raw();
-        // −det of the Hessian: positive at saddles alone.
+        // −det of the Hessian: positive only at saddles.
         let mut response = vec![0.0_f32; values.len()];
         for v in 1..h - 1 {
             for u in 1..w - 1 {
@@ -82,12 +82,12 @@ impl SaddleImage {
         Ok(saddles)
     }
 
-    /// The corner near a place, if there is one.
+    /// Returns the corner near a position, if there is one.
     pub(super) fn examine(&self, near: &Point2<f64>) -> Option<Saddle> {
         let place = self.saddle_point(near)?;
         let edges = RADII_PX.map(|radius| self.quadrants(&place, radius));
-        // The smaller circle must show a corner; the larger one tells its edges better, if the
-        // squares are large enough for it.
+        // The smaller circle must show a corner; the larger one gives more accurate edges, if the
+        // squares are large enough.
         let small = edges[0]?;
         let agree =
             |large: &[Vector2<f64>; 2]| (0..2).all(|i| large[i].dot(&small[i]).abs() > 0.94);
@@ -95,8 +95,8 @@ impl SaddleImage {
         Some(Saddle { place, edges })
     }
 
-    /// Whether nothing but the four squares is within a radius: an edge of something in front of
-    /// them would draw the corner to itself.
+    /// Returns whether only the four squares are within a radius: the edge of an object in front of
+    /// them would displace the corner.
     pub(super) fn is_clear(&self, place: &Point2<f64>, radius: f64) -> bool {
         let Some([a, b]) = self.quadrants(place, radius) else {
             return false;
@@ -111,7 +111,7 @@ impl SaddleImage {
         off < MOST_UNEVEN * contrast
     }
 
-    /// The saddle point of the quadratic that fits the 5 × 5 pixels around a place best.
+    /// Returns the saddle point of the quadratic that best fits the 5 × 5 pixels around a position.
     fn saddle_point(&self, near: &Point2<f64>) -> Option<Point2<f64>> {
         let mut place = *near;
         for _ in 0..4 {
@@ -156,7 +156,7 @@ impl SaddleImage {
         Some(place)
     }
 
-    /// The two edges through a place, if a circle around it runs through four quadrants.
+    /// Returns the two edges through a position, if a circle around it crosses four quadrants.
     fn quadrants(&self, place: &Point2<f64>, radius: f64) -> Option<[Vector2<f64>; 2]> {
         let margin = radius + 1.0;
         let (width, height) = self.blurred.dimensions();
@@ -185,8 +185,8 @@ impl SaddleImage {
         if most - least < LEAST_CONTRAST {
             return None;
         }
-        // The gray of the corner itself is midway between bright and dark, wherever the light
-        // falls.
+        // The gray value of the corner itself is midway between bright and dark under any
+        // illumination.
         let center = f64::from(sample_bilinear(
             &self.blurred,
             place.x,
@@ -216,7 +216,7 @@ impl SaddleImage {
             *line = (a + 0.5 * off, rises);
         }
         let gap = lines[1].0 - lines[0].0;
-        // Quadrants of less than some 22° are no corner that could be measured.
+        // Quadrants of less than about 22° cannot be measured.
         if !(SAMPLES as f64 * 0.06..=half - SAMPLES as f64 * 0.06).contains(&gap) {
             return None;
         }
@@ -225,13 +225,13 @@ impl SaddleImage {
             Vector2::new(cosine, sine)
         };
         let [a, b] = lines.map(|(line, _)| direction(line));
-        // Behind a line where the gray falls comes the dark quadrant; angles grow clockwise, since
-        // v is down.
+        // The dark quadrant follows a line where the gray value falls; angles grow clockwise, since
+        // v points down.
         Some(if lines[0].1 { [b, -a] } else { [a, b] })
     }
 }
 
-/// The threshold on brightness differences is meant for images in [0, 1].
+/// Rejects images outside [0, 1], the range of the threshold on brightness differences.
 pub(super) fn check_range(image: &GrayImage32) -> Result<()> {
     match image.as_raw().iter().find(|v| !(-0.5..=1.5).contains(*v)) {
         Some(value) if value.is_finite() => Err(Error::OutOfRange {

@@ -8,11 +8,10 @@ use crate::math::nearest_orthogonal;
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2, Rotation3, UnitQuaternion, Vector3};
 
-/// The focal lengths that a fisheye may have, in units of the longer side: fields of view of some
-/// 90° to 250°.
+/// Focal lengths of fisheyes, in units of the longer side, for fields of view of about 90° to 250°.
 const FISHEYE_FOCALS: [f64; 6] = [0.2, 0.28, 0.36, 0.46, 0.6, 0.8];
 
-/// Intrinsics to begin with, the likeliest first: at least one.
+/// Returns initial intrinsics, the most likely first; at least one.
 pub(super) fn starts(
     board: &Board,
     views: &[&BoardView],
@@ -36,7 +35,7 @@ pub(super) fn starts(
         (f64::from(width) - 1.0) / 2.0,
         (f64::from(height) - 1.0) / 2.0,
     );
-    // Distortion may bend the closed forms to focal lengths that no camera has.
+    // Distortion may lead closed forms to impossible focal lengths.
     let sane = |k: &Intrinsics| {
         let center = k.principal_point();
         let usual = (0.1 * longer)..(50.0 * longer);
@@ -59,11 +58,11 @@ pub(super) fn starts(
     Ok(starts)
 }
 
-/// `cam_from_board` from one view, given the camera.
+/// Computes `cam_from_board` from one view and the camera.
 ///
 /// # Errors
-/// [`Error::TooFew`] and [`Error::Degenerate`] if too few marks are in front of the camera, or on
-/// one line.
+/// [`Error::TooFew`] and [`Error::Degenerate`] if too few marks are in front of the camera, or all
+/// are on one line.
 pub(super) fn board_pose(
     board: &Board,
     view: &BoardView,
@@ -71,7 +70,7 @@ pub(super) fn board_pose(
 ) -> Result<RigidTransform> {
     let (mut on_board, mut directions) = (Vec::new(), Vec::new());
     for (mark, pixel) in view.seen() {
-        // Beyond some 80° a plane is no frame for directions.
+        // Beyond about 80° a plane cannot represent directions.
         if let Ok(ray) = camera.ray(&pixel)
             && ray.z > 0.17 * ray.norm()
         {
@@ -98,7 +97,7 @@ pub(super) fn board_pose(
     ))
 }
 
-/// A camera without distortion.
+/// Returns a camera without distortion.
 pub(super) fn plain(intrinsics: Intrinsics, kind: LensKind, (width, height): (u32, u32)) -> Camera {
     Camera {
         intrinsics,

@@ -1,4 +1,4 @@
-//! Photographs of boards, with exact truth.
+//! Renderings of boards with exact ground truth.
 
 use super::Board;
 #[cfg(test)]
@@ -19,7 +19,7 @@ const TABLE: f64 = 0.45;
 /// Width of the white margin around the outermost marks, squares.
 const MARGIN: f64 = 2.2;
 
-/// A board that is photographed.
+/// A board to render.
 struct Sheet {
     drawing: BoardDrawing,
     /// Corner opposite to the one at (−[`MARGIN`], −[`MARGIN`]), squares.
@@ -36,7 +36,7 @@ impl Sheet {
         }
     }
 
-    /// The mean gray of a part of it.
+    /// Returns the mean gray value of a part.
     ///
     /// * `seen`: footprint of a pixel, in squares
     fn gray(&self, seen: &Footprint) -> f64 {
@@ -66,14 +66,14 @@ impl Sheet {
     }
 }
 
-/// A photograph of a board on a gray table, each pixel the exact mean over the area that it sees.
+/// Renders a board on a gray table; each pixel is the exact mean over the area that it sees.
 ///
-/// * `cam_from_board`: where the board is, meters
-/// * `noise`: one standard deviation of the noise, white being 1 and black 0
-/// * `seed`: of the noise
+/// * `cam_from_board`: pose of the board, meters
+/// * `noise`: standard deviation of the noise, relative to the difference between black and white
+/// * `seed`: seed of the noise
 ///
-/// The table also fills pixels that the lens maps to no ray, and those behind the board. The one
-/// stage is [`Stage::Rendering`].
+/// The table also fills pixels without rays, and those behind the board. The only stage is
+/// [`Stage::Rendering`].
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -89,7 +89,7 @@ impl Sheet {
 ///     width: 160,
 ///     height: 120,
 /// };
-/// // The corner in row 1 and column 2 is 2 cm to the right and 2 cm below of the first.
+/// // The corner in row 1 and column 2 is 2 cm to the right of the first and 2 cm below it.
 /// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
 /// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ())?;
 /// let found = find_board(&image, &board, &mut ())?.view().expect("a board");
@@ -109,7 +109,7 @@ pub fn photograph_of_board(
     let sheet = Sheet::new(board);
     let board_from_cam = cam_from_board.inverse();
     let origin = board_from_cam * Point3::origin();
-    // The place of the board that an image point sees, in squares.
+    // Position on the board that an image point sees, in squares.
     let place = |u: f64, v: f64| {
         let ray: Vector3<f64> =
             board_from_cam.rotation * camera.unproject(&Point2::new(u, v)).ok()?;
@@ -140,7 +140,7 @@ pub fn photograph_of_board(
     Ok(image)
 }
 
-/// Pixels of the marks.
+/// Returns the true pixels of the marks.
 #[cfg(test)]
 pub(crate) fn true_view(
     board: &Board,
@@ -158,7 +158,7 @@ pub(crate) fn true_view(
     }
 }
 
-/// Poses that show the board from all sides, at a distance given in squares.
+/// Returns poses that show the board from all sides, at a distance in squares.
 #[cfg(test)]
 pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Vec<RigidTransform> {
     let mut random = Random::new(seed);
@@ -203,7 +203,7 @@ mod tests {
     }
 
     /// The board's mark 1 on the optical axis, offset by `offset_px`, rotated about the board's
-    /// normal and tipped.
+    /// normal and tilted.
     fn pose(board: &Board, turn_rad: f64, tip_rad: f64, offset_px: f64) -> RigidTransform {
         let rotation = UnitQuaternion::from_euler_angles(tip_rad, 0.3 * tip_rad, 0.0)
             * UnitQuaternion::from_euler_angles(0.0, 0.0, turn_rad);
@@ -237,7 +237,7 @@ mod tests {
                     let pose = pose(&board, f64::to_radians(degrees), tip_rad, offset_px);
                     let image =
                         photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
-                    // The edges above and below of the middle corner, along the board's y.
+                    // The edges above and below the middle corner, along the board's y.
                     let corner = |j: f64| {
                         let place = Point3::new(SQUARE_M, j * SQUARE_M, 0.0);
                         camera.project(&(pose * place)).unwrap()
@@ -263,7 +263,7 @@ mod tests {
         assert!(num_rows > 1000, "{num_rows}");
     }
 
-    /// A disk that faces the camera has the area and the center of its circle.
+    /// A frontal disk has the area and the center of its circle.
     #[test]
     fn disks_are_exact() {
         let board = Board::new(Pattern::AsymmetricCircles, 3, 3, SQUARE_M).unwrap();
@@ -286,8 +286,8 @@ mod tests {
                 }
             }
             assert!((area - PI * radius_px * radius_px).abs() < 0.01, "{area}");
-            // A gray value gives the covered area of its pixel but not its place: the centroid is
-            // known to 1/1000 px.
+            // A gray value gives the covered area of its pixel but not its position: the centroid
+            // is accurate to 1/1000 px.
             assert!((moment / area).norm() < 1e-3, "{}", moment / area);
         }
     }

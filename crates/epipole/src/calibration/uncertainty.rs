@@ -1,12 +1,12 @@
-//! Uncertainty of each number.
+//! Uncertainty of the calibrated parameters.
 
 use super::problem::{Problem, SHARED, State};
 use crate::optim::BundleProblem;
 use nalgebra::{DMatrix, Matrix6, SMatrix};
 
-/// Standard deviations of what all views share, 0 for what is held: the square roots of the
-/// diagonal of `σ² (JᵀJ)⁻¹`, with σ² the sum of squares over the degrees of freedom. `None` if the
-/// views leave it open.
+/// Returns the standard deviations of the shared parameters, 0 for held ones: the square roots of
+/// the diagonal of `σ² (JᵀJ)⁻¹`, with σ² the sum of squares over the degrees of freedom. `None` if
+/// the views do not determine them.
 ///
 /// Source: Hartley & Zisserman 2004, §5.2 and appendix A6.3 (the poses are eliminated).
 pub(super) fn standard_deviations(problem: &Problem, state: &State) -> Option<[f64; SHARED]> {
@@ -43,7 +43,8 @@ pub(super) fn standard_deviations(problem: &Problem, state: &State) -> Option<[f
             }
         }
     }
-    // Focal lengths and k3 differ by orders of magnitude: columns of one length keep the digits.
+    // Focal lengths and k3 differ by orders of magnitude: columns of equal length preserve
+    // precision.
     let scales: Vec<f64> = (0..free.len()).map(|a| reduced[(a, a)].sqrt()).collect();
     if !scales.iter().all(|s| *s > 0.0) {
         return None;

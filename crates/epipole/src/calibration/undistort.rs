@@ -1,4 +1,4 @@
-//! Photographs redrawn as a camera without distortion shows them.
+//! Undistortion of images.
 
 use crate::camera::{Camera, Intrinsics};
 use crate::progress::Monitor;
@@ -6,7 +6,7 @@ use crate::stereo::{PixelMap, PixelRect, border_outline, farthest_ray, flat};
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector2, Vector3};
 
-/// Area that an undistorted photograph keeps.
+/// Area that an undistorted image keeps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -14,34 +14,35 @@ use nalgebra::{Point2, Vector2, Vector3};
     serde(rename_all = "snake_case")
 )]
 pub enum Keep {
-    /// Only what was photographed: no black borders; something at the edges is lost.
+    /// Only valid pixels: no black borders, but the edges are cut off.
     #[default]
     Valid,
-    /// All that was photographed, with black where nothing was.
+    /// The whole image, with black where there is no content.
     All,
 }
 
-/// The best camera without distortion for the photographs of a camera, and how to get there.
+/// The best undistorted camera for the images of a camera, with the map to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Undistortion {
-    /// K of the new camera. Pixels are square, as large as the size of the photograph allows.
+    /// K of the new camera. Pixels are square, with the largest focal length that fits the image
+    /// size.
     pub intrinsics: Intrinsics,
-    /// The part of the result in which every pixel was photographed.
+    /// Part of the result in which every pixel has content.
     pub valid: PixelRect,
-    /// For every pixel of the result, where it is read.
+    /// Source position of every pixel of the result.
     pub map: PixelMap,
 }
 
 impl Undistortion {
-    /// The camera of the same picture size that shows as much as asked for, as large as possible.
-    /// The one stage is [`Stage::Warping`](crate::progress::Stage::Warping).
+    /// Computes the undistorted camera of the same image size and with the largest focal length
+    /// that keeps the given area. The only stage is
+    /// [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an image of less than 2 × 2 pixels, [`Error::Degenerate`] if the
-    /// lens model folds less than half-way to the border, so that most of the picture has no rays,
-    /// or if a fisheye sees too far sideways to keep all of it in a flat picture: then keep what is
-    /// valid. What lies beyond a fold nearer to the border is left black.
-    /// [`Error::Canceled`].
+    /// lens model folds less than halfway to the border, so that most of the image has no rays, or
+    /// if a fisheye sees too far sideways to keep all of it in a flat image: then keep only valid
+    /// pixels. Content beyond a fold closer to the border is left black. [`Error::Canceled`].
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -54,7 +55,7 @@ impl Undistortion {
     ///     height: 481,
     /// };
     /// let flat = Undistortion::new(&camera, Keep::Valid, &mut ())?;
-    /// // The middle stays where it is, and everything else is read further in.
+    /// // The middle is unchanged, and everything else is read further in.
     /// assert!((flat.map.source(320, 240).unwrap() - nalgebra::Point2::new(320.0, 240.0)).norm() < 1e-3);
     /// assert!(flat.map.source(0, 0).is_some());
     /// # Ok(()) }

@@ -1,4 +1,4 @@
-//! One camera from several views of a board.
+//! Calibration of one camera from several views of a board.
 
 #[cfg(test)]
 mod tests;
@@ -21,7 +21,7 @@ use nalgebra::Point3;
 
 pub(super) const WHAT: &str = "a calibration";
 
-/// Choices of [`calibrate`].
+/// Options of [`calibrate`].
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -31,14 +31,14 @@ pub(super) const WHAT: &str = "a calibration";
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct CalibrationOptions {
-    /// The model of the lens.
+    /// Lens model.
     pub lens: LensKind,
-    /// At most so many steps of refinement.
+    /// Maximum number of refinement steps.
     pub max_iterations: usize,
 }
 
 impl Default for CalibrationOptions {
-    /// Five numbers of distortion, at most 200 steps.
+    /// Returns five distortion coefficients and at most 200 steps.
     fn default() -> Self {
         Self {
             lens: LensKind::Brown,
@@ -47,40 +47,40 @@ impl Default for CalibrationOptions {
     }
 }
 
-/// A calibrated camera and how sure it is.
+/// A calibrated camera and its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Calibration {
     /// The camera.
     pub camera: Camera,
-    /// Root mean square of all reprojection errors: distances, not coordinates, in pixels.
+    /// Root mean square of all reprojection errors, as distances rather than coordinates, pixels.
     pub rms_px: f64,
-    /// One standard deviation of fu, fv, cu, cv, pixels.
+    /// Standard deviations of fu, fv, cu, cv, pixels.
     pub std_dev_k: [f64; 4],
-    /// One standard deviation of each coefficient of the lens.
+    /// Standard deviation of each lens coefficient.
     pub std_dev_lens: Vec<f64>,
-    /// The share of the image's area, 0 to 1, that is inside the marks of some view.
+    /// Fraction of the image's area, 0 to 1, inside the marks of some view.
     pub coverage: f64,
-    /// For each view given, what was found; `None` where none was given.
+    /// Result of each input view; `None` for `None`.
     pub views: Vec<Option<CalibratedView>>,
-    /// Warnings: causes of uncertainty that the errors do not show.
+    /// Causes of uncertainty that the errors do not show.
     pub warnings: Vec<CalibrationWarning>,
 }
 
-/// Intrinsics, distortion and the board's poses that minimize the sum of squared reprojection
-/// errors.
+/// Estimates intrinsics, distortion and poses of the board: minimizes the sum of squared
+/// reprojection errors.
 ///
-/// * `views`: where the marks are seen, from [`find_board`](super::find_board) for instance; `None`
-///   for a photograph without a board, so that results keep the order of the photographs
-/// * `width`, `height`: of all photographs, pixels
+/// * `views`: pixels of the marks, for instance from [`find_board`](super::find_board); `None` for
+///   an image without a board, to keep the order of the images
+/// * `width`, `height`: size of all images, pixels
 ///
-/// The start is Zhang's closed form, or one with the principal point in the middle, whichever leads
-/// to smaller errors; for a fisheye, equidistant lenses of several focal lengths.
+/// The initial intrinsics are Zhang's closed form, or one with the principal point in the middle,
+/// whichever leads to smaller errors; for a fisheye, equidistant lenses of several focal lengths.
 ///
 /// # Errors
 /// [`Error::TooFew`] for fewer than two views, and for a view with fewer than four marks;
 /// [`Error::Degenerate`] if a view's marks are on one line, and if all boards are parallel or fit
 /// no camera; [`Error::SizeMismatch`] for views of another board, [`Error::NotFinite`] for NaN and
-/// infinities, [`Error::OutOfRange`] for an image without pixels, [`Error::Canceled`]. The one
+/// infinities, [`Error::OutOfRange`] for an image without pixels, [`Error::Canceled`]. The only
 /// stage is [`Stage::Calibration`].
 ///
 /// Source: Zhang 2000, "A flexible new technique for camera calibration", §3.
@@ -199,10 +199,10 @@ pub fn calibrate(
     })
 }
 
-/// With a focal length less sure than this, the boards might as well be anywhere.
+/// Maximum relative standard deviation of the focal length; above, the views do not determine it.
 const MOST_UNCERTAIN: f64 = 0.2;
 
-/// The marks in the frame of the board.
+/// Returns the marks in the frame of the board.
 pub(super) fn marks(board: &Board) -> Vec<Point3<f64>> {
     let mark = |index| {
         let on_board = board.mark(index);
@@ -224,7 +224,7 @@ pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<SeenMark> {
     views.iter().enumerate().flat_map(of_view).collect()
 }
 
-/// One camera alone: all but its numbers is held.
+/// A single camera: only its own parameters are free.
 fn held(kind: LensKind) -> [bool; SHARED] {
     let mut held = [true; SHARED];
     held[6..6 + 4 + kind.num_coefficients()].fill(false);
@@ -276,7 +276,8 @@ fn refine_from(
         rig: pose_state(&RigidTransform::identity()),
         cameras: [numbers; 2],
     };
-    // The lens by and by: with all its numbers at once a poor start may end in another valley.
+    // Free the lens parameters gradually: all at once may lead from a poor start to a wrong
+    // minimum.
     let mut few = problem.held;
     few[6 + 4 + 1..6 + OF_CAMERA].fill(true);
     let first = Problem::new(

@@ -1,4 +1,4 @@
-//! Cameras that are known, and the views of boards that they must follow from.
+//! Calibration recovers known cameras from the views of boards.
 
 use super::*;
 use crate::calibration::synthetic::{poses, true_view};
@@ -57,7 +57,7 @@ fn exact_views_give_the_exact_camera() {
         };
         let found = calibrate(&board(), &views, (640, 480), &options, &mut ()).unwrap();
         assert!(found.rms_px < 1e-4, "{kind:?} {}", found.rms_px);
-        // Coefficients of a quotient trade with each other; what they do to pixels does not.
+        // Coefficients of a quotient are correlated, but their effect on pixels is not ambiguous.
         for (u, v) in [(100.0, 100.0), (320.0, 240.0), (560.0, 380.0)] {
             let pixel = Point2::new(u, v);
             let (a, b) = (
@@ -72,7 +72,7 @@ fn exact_views_give_the_exact_camera() {
     }
 }
 
-/// A hundred sets with noise: the numbers spread as much as they are said to.
+/// A hundred noisy sets: the spread of the parameters equals their estimated deviations.
 #[test]
 fn deviations_are_what_repetition_shows() {
     let camera = truth(LensKind::Brown);
@@ -96,7 +96,7 @@ fn deviations_are_what_repetition_shows() {
             &mut (),
         )
         .unwrap();
-        // Two coordinates, less what the parameters absorb.
+        // Two coordinates, minus the degrees of freedom that the parameters absorb.
         assert!((found.rms_px / (0.3 * 2.0_f64.sqrt()) - 1.0).abs() < 0.15);
         focals.push(found.camera.intrinsics.fu_px());
         said += found.std_dev_k[0] / 100.0;
@@ -189,7 +189,7 @@ fn bad_sets_get_a_sentence() {
     line[1].as_mut().unwrap().pixels[3..].fill(None);
     assert!(matches!(run(&line), Err(Error::TooFew { .. })));
     assert!(calibrate(&board(), &good, (0, 480), &options, &mut ()).is_err());
-    // Corners of another board: any answer or none, but no panic and no NaN.
+    // Corners of another board: any result or an error, but no panic and no NaN.
     let mut random = Random::new(3);
     let anywhere = |_: &Option<BoardView>| {
         let pixel = |_| {
@@ -206,7 +206,7 @@ fn bad_sets_get_a_sentence() {
     if let Ok(found) = run(&scattered) {
         assert!(found.rms_px.is_finite() && found.rms_px > 20.0);
     }
-    // One view of a bent board is named.
+    // A view of a bent board is reported.
     let mut bent = good.clone();
     for pixel in bent[2].as_mut().unwrap().pixels.iter_mut().flatten() {
         pixel.y += 2.0 * libm::sin(pixel.x / 15.0);

@@ -1,23 +1,23 @@
-//! The bits of a marker.
+//! Reading the bits of a marker.
 
 use crate::imaging::{Border, GrayImage32, sample_bilinear};
 use nalgebra::{Matrix3, Vector3};
 
-/// Samples of a cell, as shares of its side around its middle.
+/// Sample positions in a cell, relative to its middle and side.
 const SAMPLES: [f64; 3] = [-0.18, 0.0, 0.18];
-/// Share of the differences to neighboring cells that is added, against blur.
+/// Fraction of the differences to neighboring cells that is added, to reduce blur.
 ///
 /// Source: Krogius, Haggenmiller & Olson 2019, "Flexible layouts for fiducial tags".
 const SHARPENING: f64 = 0.25;
-/// Minimum difference of white and black, of a range of 1.
+/// Minimum difference between white and black, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.05;
-/// Maximum share of the border's cells that are white.
+/// Maximum fraction of white cells in the border.
 const MOST_WHITE: f64 = 0.1;
 
-/// Sides of a marker, in cells.
+/// Size of a marker, in cells.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cells {
-    /// Bits along a side.
+    /// Number of bits along a side.
     pub(super) bits: usize,
     /// Width of the black border.
     pub(super) border: usize,
@@ -29,7 +29,7 @@ impl Cells {
     }
 }
 
-/// A cell: its place in the marker, from −1 to 1, and its gray.
+/// A cell: its position in the marker, from −1 to 1, and its gray value.
 #[derive(Clone, Copy)]
 struct Cell {
     x: f64,
@@ -37,10 +37,11 @@ struct Cell {
     gray: f64,
 }
 
-/// The bits of a marker row by row, the first the most significant, white being 1; `None` if its
-/// border is not black.
+/// Reads the bits of a marker row by row, the first the most significant, with 1 for white; `None`
+/// if its border is not black.
 ///
-/// * `pixel_from_marker`: from a square with corners (0, 0) and (1, 1), the border's outline
+/// * `pixel_from_marker`: homography from the square with corners (0, 0) and (1, 1), the border's
+///   outline
 pub(super) fn read_bits(
     image: &GrayImage32,
     pixel_from_marker: &Matrix3<f64>,
@@ -98,8 +99,8 @@ fn sharpened(grays: &[f64], k: usize, side: usize) -> f64 {
     grays[k] + SHARPENING * differences.sum::<f64>()
 }
 
-/// Whether each cell is white: first by the threshold between two means, then by one that follows
-/// the light over the marker.
+/// Returns whether each cell is white: first by a threshold between two means, then by one that
+/// adapts to the illumination over the marker.
 fn classify(cells: &[Cell]) -> Option<Vec<bool>> {
     let (least, most) = cells
         .iter()
@@ -118,7 +119,7 @@ fn classify(cells: &[Cell]) -> Option<Vec<bool>> {
         contrast = white - black;
         threshold = 0.5 * (black + white);
     }
-    // Also false for NaN, where all are equal.
+    // Also false for NaN, when all cells are equal.
     let is_clear = contrast >= LEAST_CONTRAST;
     if !is_clear {
         return None;
@@ -132,7 +133,7 @@ fn classify(cells: &[Cell]) -> Option<Vec<bool>> {
     Some(cells.iter().map(|c| c.gray > middle(c)).collect())
 }
 
-/// Least squares of `gray = a x + b y + c`; constant for few cells or those on one line.
+/// Fits `gray = a x + b y + c` by least squares; constant for few cells or those on one line.
 fn plane(cells: &[Cell]) -> Vector3<f64> {
     let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
     for cell in cells {
@@ -152,7 +153,7 @@ mod tests {
     use super::*;
     use image::Luma;
 
-    /// A marker of 4 × 4 bits, 8 pixels a cell, under light that falls off to a third.
+    /// A marker of 4 × 4 bits, 8 pixels per cell, with illumination that falls to a third.
     fn drawn(bits: u64) -> GrayImage32 {
         GrayImage32::from_fn(48, 48, |u, v| {
             let (column, row) = (u / 8, v / 8);

@@ -1,4 +1,4 @@
-//! Markers in a photograph.
+//! Detection of markers in an image.
 
 use super::bits::{Cells, read_bits};
 use super::dictionary::MarkerDictionary;
@@ -12,7 +12,7 @@ use crate::progress::{Monitor, Part, Stage, report};
 use derive_setters::Setters;
 use nalgebra::{Matrix3, Point2, center};
 
-/// Maximum length of the longer side of the coarsest image, pixels.
+/// Maximum longer side of the coarsest image, pixels.
 const COARSEST_SIDE: u32 = 320;
 /// Maximum side of a marker in an image that has a coarser one, pixels.
 const MOST_SIDE_PX: f64 = 90.0;
@@ -20,18 +20,17 @@ const MOST_SIDE_PX: f64 = 90.0;
 const LEAST_CELL_PX: f64 = 1.5;
 /// Reach of the profiles across edges in the image where a marker is found, pixels.
 const REACH_PX: core::ops::Range<f64> = 2.0..4.0;
-/// Reach of the profiles as a share of a cell's side.
+/// Reach of the profiles, relative to a cell's side.
 const REACH: f64 = 0.8;
 
-/// A square marker in a photograph.
+/// A square marker in an image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Marker {
-    /// Its number in the dictionary.
+    /// Number in the dictionary.
     pub id: usize,
-    /// Corners of its black border, pixels: clockwise from the one that is upper left in an upright
-    /// marker.
+    /// Corners of the black border, pixels: clockwise from the upper left one of an upright marker.
     pub corners: [Point2<f64>; 4],
-    /// Number of bits that differ from the dictionary's.
+    /// Number of bits that differ from the dictionary.
     pub hamming: u32,
 }
 
@@ -49,12 +48,12 @@ pub struct MarkerOptions {
     pub max_hamming: Option<u32>,
     /// Width of the black border, bits; at least 1.
     pub border_bits: usize,
-    /// Minimum side, pixels; smaller ones than 1.5 pixels a bit are not found.
+    /// Minimum side, pixels; markers with less than 1.5 pixels per bit are never found.
     pub min_side_px: f64,
 }
 
 impl Default for MarkerOptions {
-    /// The dictionary's number of wrong bits, a border of one bit, any side.
+    /// Returns the dictionary's number of wrong bits, a border of one bit, and no minimum side.
     fn default() -> Self {
         Self {
             max_hamming: None,
@@ -67,14 +66,15 @@ impl Default for MarkerOptions {
 /// Finds ArUco markers and AprilTags, by number.
 ///
 /// A marker is a dark quadrilateral in an image of the pyramid; lines fitted to its sides give its
-/// corners to a fraction of a pixel, and its bits the marker of the dictionary that is nearest in
-/// any of four turns. A marker that is cut off or partly hidden at its border is not found.
+/// corners with sub-pixel accuracy, and its bits the closest marker of the dictionary in any of
+/// four orientations. Markers that are cut off or partly hidden at their border are not found.
 ///
 /// * `image`: gray values in [0, 1]
-/// * `monitor`: hears after each image of the pyramid, in the one stage [`Stage::FeatureDetection`]
+/// * `monitor`: notified after each image of the pyramid, in the only stage,
+///   [`Stage::FeatureDetection`]
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for an invalid pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1],
 /// [`Error::Canceled`](crate::Error::Canceled).
 ///
@@ -86,7 +86,7 @@ impl Default for MarkerOptions {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::calibration::{MarkerDictionary, MarkerOptions, detect_markers};
 /// use epipole::imaging::GrayImage32;
-/// // Marker 7, 8 pixels a bit, its corner between the pixels 15 and 16.
+/// // Marker 7, 8 pixels per bit, with its corner between the pixels 15 and 16.
 /// let dictionary = MarkerDictionary::Aruco4x4_50;
 /// let image = GrayImage32::from_fn(80, 80, |u, v| {
 ///     let cell = |x: u32| (x as usize / 8).checked_sub(2).filter(|cell| *cell < 6);
@@ -119,7 +119,7 @@ pub fn detect_markers(
     let mut found: Vec<Marker> = Vec::new();
     let mut level: Option<GrayImage32> = None;
     let mut scale = 1.0;
-    // A level costs a quarter of the one before.
+    // A level costs a quarter of the previous one.
     let mut share = 0.0;
     loop {
         report(monitor, Stage::FeatureDetection, share)?;
@@ -165,7 +165,7 @@ pub fn detect_markers(
     Ok(found)
 }
 
-/// The corners and the bits of a marker whose outline is known to about a pixel.
+/// Reads the corners and bits of a marker whose outline is known to about a pixel.
 fn read_quad(
     image: &GrayImage32,
     quad: &[Point2<f64>; 4],
@@ -180,20 +180,20 @@ fn read_quad(
     Some((corners, bits))
 }
 
-/// Half the length of the profiles across the edges of a marker.
+/// Returns half the length of the profiles across the edges of a marker.
 fn reach_px(corners: &[Point2<f64>; 4], cells: Cells, most_px: f64) -> f64 {
     let lengths = [0, 1, 2, 3].map(|k| (corners[(k + 1) % 4] - corners[k]).norm());
     let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
     (REACH * shortest / cells.side() as f64).clamp(REACH_PX.start, most_px.max(REACH_PX.start))
 }
 
-/// The homography from the square with corners (0, 0) and (1, 1) to a marker's outline.
+/// Returns the homography from the square with corners (0, 0) and (1, 1) to a marker's outline.
 fn pixel_from_marker(corners: &[Point2<f64>; 4]) -> Option<Matrix3<f64>> {
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Point2::from);
     homography_4point(&square, corners).pop()
 }
 
-/// Adds a marker, unless it was found at this place with fewer wrong bits.
+/// Adds a marker, unless it was found there with fewer wrong bits.
 fn keep(found: &mut Vec<Marker>, marker: Marker) {
     let middle = |m: &Marker| center(&center(&m.corners[0], &m.corners[2]), &m.corners[1]);
     let half = 0.5 * (marker.corners[2] - marker.corners[0]).norm();

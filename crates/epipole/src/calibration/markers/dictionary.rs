@@ -2,10 +2,10 @@
 
 use super::codes::{APRILTAG_36H11, ARUCO_4X4, ARUCO_5X5, ARUCO_6X6, ARUCO_7X7, Codes};
 
-/// Set of square markers that differ from each other in any of their four turns.
+/// Set of square markers that differ from each other in all four orientations.
 ///
-/// Names and numbers are those of OpenCV; AprilTag's markers are half a turn from those that the
-/// AprilTag library draws, as in OpenCV.
+/// Names and numbers are those of OpenCV; as there, AprilTags are rotated by 180° from those of the
+/// AprilTag library.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MarkerDictionary {
@@ -42,22 +42,22 @@ pub enum MarkerDictionary {
     Aruco7x7_250,
     /// 1000 markers of 7 × 7 bits.
     Aruco7x7_1000,
-    /// 587 markers of 6 × 6 bits, any two of which differ in at least 11 bits.
+    /// 587 markers of 6 × 6 bits, with a Hamming distance of at least 11.
     AprilTag36h11,
 }
 
-/// Numbers of a dictionary.
+/// Properties of a dictionary.
 struct Facts {
     name: &'static str,
     codes: Codes,
     side: usize,
     num_markers: usize,
-    /// Wrong bits after which no other marker is nearer; from OpenCV.
+    /// Maximum number of wrong bits for unique identification; from OpenCV.
     unique: u32,
 }
 
-/// Row and column of a bit, its marker turned clockwise by quarter turns: the place from which it
-/// came.
+/// Returns the original row and column of a bit in a marker rotated clockwise by `quarters` times
+/// 90°.
 fn turned_back((row, column): (usize, usize), quarters: usize, side: usize) -> (usize, usize) {
     let last = side - 1;
     match quarters % 4 {
@@ -119,7 +119,7 @@ impl MarkerDictionary {
         }
     }
 
-    /// Its name, as in OpenCV without the prefix: "4x4_50", "36h11".
+    /// Returns the name, as in OpenCV without the prefix: "4x4_50", "36h11".
     ///
     /// ```
     /// use epipole::calibration::MarkerDictionary;
@@ -130,23 +130,23 @@ impl MarkerDictionary {
         self.facts().name
     }
 
-    /// Number of its markers.
+    /// Returns the number of markers.
     pub fn num_markers(self) -> usize {
         self.facts().num_markers
     }
 
-    /// Bits along a side, without the border.
+    /// Returns the number of bits along a side, without the border.
     pub fn num_bits(self) -> usize {
         self.facts().side
     }
 
-    /// Number of wrong bits up to which markers are accepted by default: 0.6 of those after which
-    /// no other marker is nearer, as in OpenCV.
+    /// Returns the default maximum number of wrong bits: 0.6 of the maximum for unique
+    /// identification, as in OpenCV.
     pub fn max_hamming(self) -> u32 {
         self.facts().unique * 6 / 10
     }
 
-    /// Whether a bit is white; `None` if there is no such marker or bit.
+    /// Returns whether a bit is white; `None` if there is no such marker or bit.
     ///
     /// * `row`, `column`: from the upper left bit of an upright marker, without its border
     pub fn is_white(self, id: usize, row: usize, column: usize) -> Option<bool> {
@@ -158,16 +158,16 @@ impl MarkerDictionary {
         })
     }
 
-    /// Black cells of an upright marker, joined to rectangles that do not overlap: column and row
-    /// of the upper left and of the lower right corner, in cells from the outer corner of the
-    /// border; `None` if there is no such marker.
+    /// Returns the black cells of an upright marker, joined to rectangles without overlaps: column
+    /// and row of the upper left and of the lower right corner, in cells from the outer corner of
+    /// the border; `None` if there is no such marker.
     ///
     /// * `border_bits`: width of the black border
     ///
     /// ```
     /// use epipole::calibration::MarkerDictionary;
     /// let cells = MarkerDictionary::Aruco4x4_50.black_cells(0, 1).unwrap();
-    /// // The upper border, six cells wide, which the first row 1011 does not prolong.
+    /// // The upper border, six cells wide; the first row 1011 does not extend it.
     /// assert_eq!(cells[0], [[0, 0], [6, 1]]);
     /// ```
     pub fn black_cells(self, id: usize, border_bits: usize) -> Option<Vec<[[usize; 2]; 2]>> {
@@ -202,17 +202,17 @@ impl MarkerDictionary {
         Some(rectangles)
     }
 
-    /// The nearest marker to the bits of an image: its number, its clockwise quarter turns and the
-    /// number of wrong bits, if this is at most `max_hamming`.
+    /// Returns the closest marker to the bits of an image: its number, its number of clockwise 90°
+    /// rotations, and the number of wrong bits, if at most `max_hamming`.
     ///
     /// * `bits`: row by row, the first the most significant; 1 is white
     pub(super) fn nearest(self, bits: u64, max_hamming: u32) -> Option<(usize, usize, u32)> {
         let facts = self.facts();
         let num_bits = facts.side * facts.side;
-        // The bits as they are in a marker that would be upright.
+        // The bits as in an upright marker.
         let upright: [u64; 4] = core::array::from_fn(|quarters| {
             (0..num_bits).fold(0, |code, k| {
-                // A bit of the upright marker is where the turn by the rest of a circle has it.
+                // A bit of the upright marker is at the position given by the remaining rotation.
                 let place = (k / facts.side, k % facts.side);
                 let (row, column) = turned_back(place, 4 - quarters, facts.side);
                 code << 1 | bits >> (num_bits - 1 - (row * facts.side + column)) & 1
@@ -231,7 +231,7 @@ impl MarkerDictionary {
 mod tests {
     use super::*;
 
-    /// Bits of a marker that is turned clockwise.
+    /// Bits of a marker that is rotated clockwise.
     fn bits(dictionary: MarkerDictionary, id: usize, quarters: usize) -> u64 {
         let side = dictionary.num_bits();
         (0..side * side).fold(0, |bits, k| {
@@ -240,7 +240,7 @@ mod tests {
         })
     }
 
-    /// First rows of `cv2.aruco.generateImageMarker`, one pixel a bit.
+    /// First rows of `cv2.aruco.generateImageMarker`, one pixel per bit.
     #[test]
     fn bits_are_those_of_opencv() {
         for (dictionary, id, first_row) in [

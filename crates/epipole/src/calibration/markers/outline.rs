@@ -1,20 +1,19 @@
-//! A quadrilateral's outline to a fraction of a pixel: a line fitted to the edge points of each
-//! side.
+//! Sub-pixel outline of a quadrilateral: a line fitted to the edge points of each side.
 
 use crate::imaging::{Border, GrayImage32, sample_bilinear};
 use nalgebra::{Matrix2, Point2, Vector2};
 
-/// Share of a side, at each end, that the neighboring side blurs.
+/// Fraction of a side, at each end, that the adjacent side blurs.
 const ENDS: f64 = 0.12;
-/// Edge points along a side.
+/// Range of the number of edge points along a side.
 const POINTS: core::ops::Range<usize> = 8..40;
 /// Step of the profiles across an edge, pixels.
 const STEP_PX: f64 = 0.5;
 /// Minimum difference of bright and dark across an edge, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.05;
-/// Minimum share of a side on which the edge is seen.
+/// Minimum fraction of a side with a visible edge.
 const LEAST_SEEN: f64 = 0.6;
-/// Distance from the line, in multiples of the median, beyond which edge points are left out.
+/// Maximum distance of edge points from the line, in multiples of the median.
 const FAR: f64 = 3.0;
 
 /// A line through `point` along the unit vector `direction`.
@@ -23,11 +22,11 @@ struct Line {
     direction: Vector2<f64>,
 }
 
-/// Corners of a dark quadrilateral, from lines through the edge points of its sides; `None` if a
-/// side shows no edge.
+/// Refines the corners of a dark quadrilateral, by lines through the edge points of its sides;
+/// `None` if a side shows no edge.
 ///
-/// * `corners`: clockwise on the screen
-/// * `reach_px`: half the length of the profiles: the width of the dark border, at most
+/// * `corners`: clockwise in the image
+/// * `reach_px`: half the length of the profiles, at most the width of the dark border
 pub(super) fn refine_outline(
     image: &GrayImage32,
     corners: &[Point2<f64>; 4],
@@ -79,7 +78,7 @@ fn fit_side(image: &GrayImage32, [a, b]: [Point2<f64>; 2], reach_px: f64) -> Opt
     fit_line(&near)
 }
 
-/// The place across an edge where its gray rises: the mean of places, weighted by slopes.
+/// Returns the position across an edge where its gray value rises: the mean weighted by slopes.
 fn edge_point(
     image: &GrayImage32,
     near: &Point2<f64>,
@@ -103,7 +102,7 @@ fn edge_point(
     (sum >= LEAST_CONTRAST).then(|| near + outward * (moment / sum))
 }
 
-/// Least squares of distances.
+/// Fits a line by least squares of distances.
 fn fit_line(points: &[Point2<f64>]) -> Option<Line> {
     if points.len() < 3 {
         return None;
@@ -114,7 +113,7 @@ fn fit_line(points: &[Point2<f64>]) -> Option<Line> {
     let spread = points.iter().fold(Matrix2::zeros(), |sum, p| {
         sum + (p - point) * (p - point).transpose()
     });
-    // The larger eigenvector of a symmetric 2 × 2 matrix.
+    // Major eigenvector of a symmetric 2 × 2 matrix.
     let angle_rad = 0.5 * libm::atan2(2.0 * spread[(0, 1)], spread[(0, 0)] - spread[(1, 1)]);
     let (sine, cosine) = libm::sincos(angle_rad);
     Some(Line {

@@ -1,28 +1,28 @@
-//! Dark quadrilaterals on a brighter ground.
+//! Detection of dark quadrilaterals on a brighter background.
 
 use crate::Result;
 use crate::imaging::{Border, GrayImage32, box_filter};
 use crate::progress::{Monitor, Part, Stage, report};
 use nalgebra::Point2;
 
-/// Side of the surroundings that a pixel is compared with, pixels.
+/// Side of the surroundings with which a pixel is compared, pixels.
 const SURROUNDINGS_PX: usize = 15;
-/// Dark pixels are below the mean of their surroundings by more than this, of a range of 1.
+/// Minimum difference between dark pixels and the mean of their surroundings, of a range of 1.
 const LEAST_CONTRAST: f32 = 0.03;
-/// Minimum share of the convex hull that the quadrilateral fills.
+/// Minimum ratio of the areas of quadrilateral and convex hull.
 const LEAST_FILLED: f64 = 0.82;
 /// Maximum ratio of the longest side to the shortest.
 const MOST_SLANTED: f64 = 6.0;
 
-/// Sides of the quadrilaterals that are wanted, pixels.
+/// Range of the sides of quadrilaterals, pixels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sides {
     pub(super) least: f64,
     pub(super) most: f64,
 }
 
-/// Outlines of dark spots that are nearly quadrilaterals, to about a pixel. Corners are clockwise
-/// on the screen.
+/// Finds the outlines of dark spots that are nearly quadrilaterals, to about a pixel. Corners are
+/// clockwise in the image.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -51,7 +51,7 @@ pub(super) fn find_quads(
         if !core::mem::take(&mut is_dark[start]) {
             continue;
         }
-        // Of each row of the spot its first and last column. The start is in the uppermost row.
+        // First and last column of each row of the spot. The start is in the top row.
         let top = start / width;
         rows.clear();
         stack.push(start);
@@ -64,8 +64,8 @@ pub(super) fn find_quads(
             }
             let ends = &mut rows[v - top];
             *ends = [ends[0].min(u), ends[1].max(u)];
-            // Diagonal neighbors are not connected: black squares that touch at their corners are
-            // several.
+            // Diagonal neighbors are not connected: black squares that touch at corners are
+            // separate.
             let ways = [
                 (u > 0).then(|| at - 1),
                 (u + 1 < width).then(|| at + 1),
@@ -85,7 +85,7 @@ pub(super) fn find_quads(
     Ok(quads)
 }
 
-/// The quadrilateral of a spot, given by the ends of its rows.
+/// Returns the quadrilateral of a spot, given by the ends of its rows.
 fn as_quad(rows: &[[usize; 2]], top: usize, sides: Sides) -> Option<[Point2<f64>; 4]> {
     let hull = hull_of_rows(rows, top);
     let quad = largest_quad(&hull)?;
@@ -97,7 +97,7 @@ fn as_quad(rows: &[[usize; 2]], top: usize, sides: Sides) -> Option<[Point2<f64>
     (is_sized && area(&quad) >= LEAST_FILLED * area(&hull)).then_some(quad)
 }
 
-/// Convex hull of the ends of rows, clockwise on the screen.
+/// Returns the convex hull of the ends of rows, clockwise in the image.
 fn hull_of_rows(rows: &[[usize; 2]], top: usize) -> Vec<Point2<f64>> {
     let end = |row: usize, side: usize| Point2::new(rows[row][side] as f64, (top + row) as f64);
     let mut hull: Vec<Point2<f64>> = Vec::new();
@@ -121,14 +121,14 @@ fn hull_of_rows(rows: &[[usize; 2]], top: usize) -> Vec<Point2<f64>> {
     hull
 }
 
-/// Area of a polygon; positive if it is clockwise on the screen.
+/// Returns the area of a polygon; positive if clockwise in the image.
 fn area(polygon: &[Point2<f64>]) -> f64 {
     let num = polygon.len();
     let twice = |i: usize| polygon[i].coords.perp(&polygon[(i + 1) % num].coords);
     0.5 * (0..num).map(twice).sum::<f64>()
 }
 
-/// The quadrilateral of largest area whose corners are those of a convex polygon.
+/// Returns the quadrilateral of maximum area with corners of a convex polygon.
 fn largest_quad(hull: &[Point2<f64>]) -> Option<[Point2<f64>; 4]> {
     let num = hull.len();
     if num < 4 {
@@ -139,7 +139,7 @@ fn largest_quad(hull: &[Point2<f64>]) -> Option<[Point2<f64>; 4]> {
         (at(b) - at(a)).perp(&(at(c) - at(a)))
     };
     let mut best = (0.0, [0; 4]);
-    // Of every diagonal the farthest corners on both of its sides, which move on with its end.
+    // For each diagonal, the farthest corners on both sides, which advance with its end.
     for first in 0..num - 2 {
         let (mut right, mut left) = (first + 1, first + 3);
         for across in first + 2..num {
@@ -176,7 +176,7 @@ mod tests {
         most: 80.0,
     };
 
-    /// A dark quadrilateral on a bright ground.
+    /// A dark quadrilateral on a bright background.
     fn drawn(corners: [[f64; 2]; 4]) -> GrayImage32 {
         let corners = corners.map(Point2::from);
         GrayImage32::from_fn(100, 90, |u, v| {

@@ -1,4 +1,4 @@
-//! Codes of AprilTag 36h11, half a turn from the tags of the AprilTag library, as OpenCV has them.
+//! Codes of AprilTag 36h11, rotated by 180° from the tags of the AprilTag library, as in OpenCV.
 //!
 //! Source: Olson 2011, "AprilTag: a robust and flexible visual fiducial system"; the table
 //! `DICT_APRILTAG_36h11` of OpenCV 5.0.

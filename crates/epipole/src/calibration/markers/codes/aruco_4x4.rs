@@ -1,4 +1,4 @@
-//! Codes of the ArUco markers of 4 × 4 bits; smaller dictionaries are its beginning.
+//! Codes of the ArUco markers of 4 × 4 bits; smaller dictionaries are prefixes.
 //!
 //! Source: the table `DICT_4X4_1000` of OpenCV 5.0, after Garrido-Jurado et al. 2014, "Automatic
 //! generation and detection of highly reliable fiducial markers under occlusion".

@@ -15,7 +15,7 @@ pub(super) enum Codes {
 }
 
 impl Codes {
-    /// The code of a marker, whose number must be below that of the family.
+    /// Returns the code of a marker, whose number must be less than the size of the family.
     pub(super) fn get(self, id: usize) -> u64 {
         match self {
             Self::Short(codes) => codes[id].into(),
