@@ -6,11 +6,11 @@ use crate::math::simd::dispatched;
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// The Harris response `R = det M − k (trace M)²` of the structure tensor M at each pixel:
-/// positive at corners, negative along edges, near zero where the image is flat. The one stage is
+/// Computes the Harris response `R = det M − k (trace M)²` of the structure tensor M at each pixel:
+/// positive at corners, negative along edges, near zero in flat regions. The only stage is
 /// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
-/// * `k`: between 0 and 0.25, usually 0.04 to 0.06
+/// * `k`: in [0, 0.25), usually 0.04 to 0.06
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a k outside [0, 0.25), and as
@@ -50,8 +50,8 @@ pub fn harris_response(
     Ok(response)
 }
 
-/// The smaller eigenvalue of the structure tensor at each pixel, the measure of Shi and Tomasi.
-/// The one stage is [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
+/// Computes the smaller eigenvalue of the structure tensor at each pixel, the measure of Shi and
+/// Tomasi. The only stage is [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
 /// # Errors
 /// As [`structure_tensor`](super::structure_tensor()).

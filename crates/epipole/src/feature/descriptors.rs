@@ -1,9 +1,9 @@
-//! Descriptors of keypoints, and keypoints with them.
+//! Descriptors of keypoints.
 
 use super::Keypoint;
 use crate::{Error, Result};
 
-/// Keypoints and their descriptors; entry k of one belongs to entry k of the other.
+/// Keypoints and their descriptors, in the same order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
     /// Keypoints.
@@ -27,15 +27,15 @@ pub(crate) enum Values {
     Bits(Vec<[u64; 4]>),
 }
 
-/// Bits of a binary descriptor.
+/// Number of bits of a binary descriptor.
 const NUM_BITS: usize = 256;
 
 impl Descriptors {
-    /// Descriptors of whole numbers 0 to 255, one after the other.
+    /// Creates descriptors from integers 0 to 255, one descriptor after the other.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a dimension of 0 or above 4096, [`Error::SizeMismatch`] for
-    /// values that do not fill whole descriptors.
+    /// [`Error::OutOfRange`] for a dimension of 0 or above 4096, [`Error::SizeMismatch`] if the
+    /// values do not fill whole descriptors.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -51,7 +51,7 @@ impl Descriptors {
         })
     }
 
-    /// Descriptors of finite numbers, one after the other.
+    /// Creates descriptors from finite numbers, one descriptor after the other.
     ///
     /// # Errors
     /// As [`Descriptors::from_bytes`], and [`Error::NotFinite`] for a value that is NaN or
@@ -73,7 +73,7 @@ impl Descriptors {
         })
     }
 
-    /// Descriptors of 256 bits each, as four 64-bit words; bit 0 of word 0 comes first.
+    /// Creates descriptors of 256 bits each, as four 64-bit words; bit 0 of word 0 comes first.
     ///
     /// ```
     /// let descriptors = epipole::feature::Descriptors::from_bits(vec![[0b101, 0, 0, 0]]);
@@ -96,17 +96,17 @@ impl Descriptors {
         }
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no descriptors.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Numbers or bits in one descriptor.
+    /// Returns the number of values or bits per descriptor.
     pub fn dimension(&self) -> usize {
         self.dimension
     }
 
-    /// Descriptor `index` as floats, or `None` past the end; bits are 0 and 1.
+    /// Returns descriptor `index` as floats, or `None` past the end; bits become 0 and 1.
     pub fn get(&self, index: usize) -> Option<Vec<f32>> {
         let range = index.checked_mul(self.dimension)?..(index + 1).checked_mul(self.dimension)?;
         match &self.values {
@@ -118,7 +118,7 @@ impl Descriptors {
         }
     }
 
-    /// All values as bytes, if that is how they are kept.
+    /// Returns all values as bytes, if stored as bytes.
     pub fn as_bytes(&self) -> Option<&[u8]> {
         match &self.values {
             Values::Bytes(values) => Some(values),
@@ -126,7 +126,7 @@ impl Descriptors {
         }
     }
 
-    /// The words of all descriptors of bits; `None` for numbers.
+    /// Returns the words of all binary descriptors; `None` for numbers.
     pub fn as_bits(&self) -> Option<&[[u64; 4]]> {
         match &self.values {
             Values::Bits(words) => Some(words),
@@ -134,7 +134,7 @@ impl Descriptors {
         }
     }
 
-    /// All values as floats; bits are 0 and 1.
+    /// Returns all values as floats; bits become 0 and 1.
     pub fn to_floats(&self) -> Vec<f32> {
         match &self.values {
             Values::Bytes(values) => values.iter().map(|&v| f32::from(v)).collect(),

@@ -1,4 +1,4 @@
-//! Features of photographs by any of the detectors.
+//! Feature extraction from images by any of the detectors.
 
 use super::{
     FeatureKind, FeatureOptions, Features, Keypoint, RefineOptions, SiftOptions, describe_patches,
@@ -9,8 +9,8 @@ use crate::imaging::{GrayImage32, gray_to_f32, rgb_to_gray};
 use crate::progress::{Monitor, Part};
 use image::RgbImage;
 
-/// The gray values in [0, 1] in which features of a photograph are looked for: 8 bits, equal to
-/// OpenCV's ([`rgb_to_gray`]), so that every command finds the same features in a photograph.
+/// Converts a photo to gray values in [0, 1] for feature detection: rounded to 8 bits, as OpenCV
+/// does ([`rgb_to_gray`]), so that every command finds the same features.
 ///
 /// ```
 /// use image::{Rgb, RgbImage};
@@ -21,13 +21,13 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
     gray_to_f32(&rgb_to_gray(photo))
 }
 
-/// The features of an image, of the kind that `options` names, strongest first.
+/// Detects the features of an image, of the kind given by `options`, strongest first.
 ///
-/// Corners of Harris are located between pixels; those that cannot be are dropped. The one stage is
-/// [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
+/// Harris corners are refined to sub-pixel positions; corners that cannot be are dropped. The only
+/// stage is [`Stage::FeatureDetection`](crate::progress::Stage::FeatureDetection).
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for an invalid pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
 /// [`Error::Canceled`](crate::Error::Canceled).
 ///
@@ -37,7 +37,7 @@ pub fn photo_to_gray(photo: &RgbImage) -> GrayImage32 {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{FeatureKind, FeatureOptions, detect_features};
 /// use epipole::imaging::GrayImage32;
-/// // A bright square on dark ground has four corners.
+/// // A bright square on dark background has four corners.
 /// let square = GrayImage32::from_fn(64, 64, |u, v| {
 ///     let inside = |x: u32| (20..44).contains(&x);
 ///     image::Luma([if inside(u) && inside(v) { 0.9 } else { 0.1 }])
@@ -58,12 +58,11 @@ pub fn detect_features(
     }
 }
 
-/// Share of the time that a search in the size of a photograph takes of one in twice the size as
-/// well.
+/// Progress after the search at the original size, if a search at twice the size follows.
 const OWN_SIZE_SHARE: f32 = 0.2;
 
-/// SIFT, in twice the size where the photograph is small, or where the larger features leave room
-/// for more.
+/// Runs SIFT, at twice the size if the image is small, or if the larger features leave room for
+/// more.
 fn sift(
     image: &GrayImage32,
     options: &FeatureOptions,
@@ -98,7 +97,7 @@ fn harris(
     let places: Vec<_> = corners.iter().map(Keypoint::point).collect();
     let refine = &mut Part::new(monitor, 0.4, 0.8);
     let refined = refine_corners(image, &places, &RefineOptions::default(), refine)?;
-    // A corner that cannot be refined is not one.
+    // Drop corners that cannot be refined.
     let keypoints: Vec<Keypoint> = (corners.into_iter().zip(refined))
         .filter_map(|(corner, place)| {
             place.map(|place| Keypoint {
@@ -175,7 +174,7 @@ mod tests {
         }
     }
 
-    /// Boxes on a texture of ripples of a few pixels, on which every option makes a difference.
+    /// Boxes on a texture of ripples a few pixels wide, on which every option makes a difference.
     fn busy() -> GrayImage32 {
         let boxes = boxes();
         GrayImage32::from_fn(120, 100, |u, v| {
@@ -309,7 +308,7 @@ mod tests {
         }
     }
 
-    /// The same image, called large or small.
+    /// The same image, treated as large or small.
     #[test]
     fn large_photographs_have_the_features_of_small_ones() {
         let image = busy();
@@ -332,7 +331,7 @@ mod tests {
             let small = found(num_pixels, max_features);
             assert_eq!(found(num_pixels - 1, max_features), small);
         }
-        // Those of its own size come first, where they are enough.
+        // At the original size first, if those are enough.
         let own = found(0, 0);
         let enough = own.keypoints.len();
         assert_eq!(found(num_pixels - 1, enough), own);

@@ -1,4 +1,4 @@
-//! Corners that are strong, apart from each other, and spread over the image.
+//! Strong corners at minimum distances, distributed over the image.
 
 use super::nms::strongest_first;
 use super::{Keypoint, StructureTensorOptions, harris_response, min_eigenvalue_response};
@@ -18,11 +18,11 @@ pub enum CornerMeasure {
     /// The smaller eigenvalue of the structure tensor.
     #[default]
     ShiTomasi,
-    /// Harris' measure with its constant k.
+    /// Harris measure with its constant k.
     Harris(f32),
 }
 
-/// Cells of the image that share the corners out evenly.
+/// Grid that distributes the corners evenly over the image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -30,9 +30,9 @@ pub enum CornerMeasure {
     serde(deny_unknown_fields)
 )]
 pub struct Grid {
-    /// Cells side by side, ≥ 1.
+    /// Number of columns of cells, ≥ 1.
     pub columns: usize,
-    /// Cells one above the other, ≥ 1.
+    /// Number of rows of cells, ≥ 1.
     pub rows: usize,
 }
 
@@ -46,23 +46,23 @@ pub struct Grid {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct GoodFeaturesOptions {
-    /// At most so many corners; 0 means no limit.
+    /// Maximum number of corners; 0 means no limit.
     pub max_corners: usize,
-    /// Corners weaker than this share of the strongest are dropped, in (0, 1].
+    /// Minimum response relative to the strongest corner, in (0, 1].
     pub quality: f32,
-    /// No two corners are closer than this, pixels; 0 allows neighbors.
+    /// Minimum distance between corners, pixels; 0 allows neighbors.
     pub min_distance_px: f64,
-    /// The measure.
+    /// Corner measure.
     pub measure: CornerMeasure,
     /// Options of the structure tensor.
     pub tensor: StructureTensorOptions,
-    /// With a grid and a limit, each cell first gives its share of the strongest; what the poor
-    /// cells leave goes to the strongest of the rest.
+    /// With a grid and a limit, each cell first contributes an equal number of its strongest
+    /// corners; cells with too few leave the remainder to the strongest of the rest.
     pub grid: Option<Grid>,
 }
 
 impl Default for GoodFeaturesOptions {
-    /// At most 1000 corners by Shi and Tomasi, 1 % quality, 8 pixels apart, no grid.
+    /// Returns at most 1000 Shi–Tomasi corners, 1 % quality, 8 pixels apart, without a grid.
     fn default() -> Self {
         Self {
             max_corners: 1000,
@@ -75,11 +75,12 @@ impl Default for GoodFeaturesOptions {
     }
 }
 
-/// The corners of an image: local maxima of the measure in 3×3 pixels, at least `quality` times
-/// the strongest, no two closer than `min_distance_px` (the stronger stays), strongest first.
+/// Finds the corners of an image: local maxima of the measure in 3×3 pixels, at least `quality`
+/// times the strongest, no two closer than `min_distance_px` (the stronger one is kept), strongest
+/// first.
 ///
-/// Pixels on the image's edge are no candidates. An image without corners gives an empty list.
-/// Positions are whole pixels; [`refine_corners`](super::refine_corners()) makes them finer.
+/// Border pixels are excluded. An image without corners gives an empty list. Positions are
+/// integers; [`refine_corners`](super::refine_corners()) refines them.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a quality outside (0, 1], a negative or infinite distance or a grid
@@ -179,7 +180,7 @@ pub fn good_features_to_track(
     Ok(chosen.list)
 }
 
-/// Pixels inside the edge that no neighbor exceeds and that reach the quality.
+/// Returns the pixels inside the border that no neighbor exceeds and that reach the quality.
 fn inner_maxima(response: &GrayImage32, quality: f32) -> Vec<Keypoint> {
     let (width, height) = (response.width() as usize, response.height() as usize);
     let values = response.as_raw();
@@ -206,7 +207,7 @@ fn inner_maxima(response: &GrayImage32, quality: f32) -> Vec<Keypoint> {
     found
 }
 
-/// The corners chosen so far, in buckets as wide as the smallest distance.
+/// Corners chosen so far, in buckets as wide as the minimum distance.
 struct Chosen {
     list: Vec<Keypoint>,
     min_distance_px: f64,
@@ -234,7 +235,7 @@ impl Chosen {
         }
     }
 
-    /// Adds the corner unless one is too close; says whether it was added.
+    /// Adds the corner unless one is too close; returns whether it was added.
     fn push_if_free(&mut self, corner: Keypoint) -> bool {
         if self.min_distance_px > 0.0 {
             let column = (corner.u / self.bucket_px) as usize;

@@ -1,27 +1,27 @@
-//! A place in an image worth finding again.
+//! Keypoints of an image.
 
 use nalgebra::Point2;
 
-/// A place in an image that was detected, with what the detector knows about it.
+/// A keypoint: a detected position in an image with its scale, direction and response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Keypoint {
-    /// Column, pixels, centers at integers.
+    /// Column, pixels; pixel centers are at integers.
     pub u: f64,
-    /// Row, pixels, centers at integers.
+    /// Row, pixels; pixel centers are at integers.
     pub v: f64,
-    /// Standard deviation of the blur at which it was found, pixels of the image; 1 for detectors
-    /// without scale.
+    /// Standard deviation of the blur at detection, pixels of the image; 1 for detectors without
+    /// scale.
     pub scale_px: f32,
     /// Direction, `atan2(v, u)` with v down, in (−π, π]; 0 for detectors without orientation.
     pub angle_rad: f32,
     /// Response of the detector; larger is better.
     pub response: f32,
-    /// Octave of the pyramid, or level, where it was found.
+    /// Octave or level of the pyramid.
     pub octave: i32,
 }
 
 impl Keypoint {
-    /// The place as a point.
+    /// Returns the position.
     ///
     /// ```
     /// use epipole::feature::Keypoint;
@@ -31,7 +31,7 @@ impl Keypoint {
         Point2::new(self.u, self.v)
     }
 
-    /// A keypoint without scale or direction.
+    /// Creates a keypoint without scale or direction.
     ///
     /// ```
     /// let keypoint = epipole::feature::Keypoint::at(3.0, 4.0, 0.5);

@@ -1,8 +1,8 @@
 //! Features: corners, scale-invariant keypoints, their descriptors, matching and tracking.
 //!
-//! Detectors refuse images with NaN or infinite pixels, and find nothing, without an error, in
-//! images that are flat or too small. Lists are in a fixed order, strongest first, that does not
-//! depend on the number of threads. Gray values are taken to lie in [0, 1].
+//! Detectors reject images with NaN or infinite pixels; flat or tiny images have no features,
+//! without an error. Lists have a deterministic order, strongest first, independent of the number
+//! of threads. Gray values are expected in [0, 1].
 
 mod corners;
 mod descriptors;

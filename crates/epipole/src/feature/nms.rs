@@ -1,4 +1,4 @@
-//! Local maxima of a response.
+//! Non-maximum suppression.
 
 use super::Keypoint;
 use crate::imaging::{GrayImage32, require_finite};
@@ -6,14 +6,13 @@ use crate::math::order::order_by;
 use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 
-/// The pixels whose response exceeds `threshold` and every other response within `radius` columns
-/// and rows, strongest first.
+/// Finds the pixels whose response exceeds `threshold` and every other response within `radius`
+/// columns and rows, strongest first.
 ///
-/// * `radius`: pixels, ≥ 1; the window is `2 radius + 1` wide and is cut off at the image's edge
+/// * `radius`: pixels, ≥ 1; the window is `2 radius + 1` wide and is cropped at the image border
 ///
-/// Of equal maxima within a window the first in reading order stays; one that does not stay,
-/// because of another or because a greater response is near it, suppresses nothing equal. Positions
-/// are whole pixels. The one stage is [`Stage::FeatureDetection`].
+/// Of equal maxima within a window, the first in reading order is kept; a suppressed maximum
+/// suppresses no equal ones. Positions are integers. The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite response or threshold, [`Error::OutOfRange`] for a
@@ -66,7 +65,7 @@ pub fn non_maximum_suppression(
     Ok(peaks)
 }
 
-/// Orders by response, equal ones by place, so that the order never depends on the search.
+/// Sorts by response, then by position, for a deterministic order.
 pub(crate) fn strongest_first(keypoints: &mut [Keypoint]) {
     let mut by_strength = |a: usize, b: usize| stronger(&keypoints[a], &keypoints[b]);
     let order = order_by(keypoints.len(), &mut by_strength);
@@ -74,7 +73,7 @@ pub(crate) fn strongest_first(keypoints: &mut [Keypoint]) {
     keypoints.copy_from_slice(&sorted);
 }
 
-/// The order of [`strongest_first`].
+/// Compares two keypoints as in [`strongest_first`].
 pub(crate) fn stronger(a: &Keypoint, b: &Keypoint) -> std::cmp::Ordering {
     b.response
         .total_cmp(&a.response)
@@ -85,7 +84,7 @@ pub(crate) fn stronger(a: &Keypoint, b: &Keypoint) -> std::cmp::Ordering {
         .then(a.angle_rad.total_cmp(&b.angle_rad))
 }
 
-/// `stays`: which pixels before this one, in reading order, are peaks.
+/// * `stays`: whether each previous pixel, in reading order, is a peak
 fn is_peak(
     values: &[f32],
     stays: &[bool],
@@ -128,7 +127,7 @@ mod tests {
         );
     }
 
-    /// The second pixel of the plateau is in the window of none but the first, which the peak has
+    /// The window of the plateau's second pixel contains only the first pixel, which the peak has
     /// suppressed.
     #[test]
     fn what_is_suppressed_suppresses_nothing_equal() {

@@ -1,4 +1,4 @@
-//! Kinds of features, and the one set of defaults for them.
+//! Kinds of features, and their common defaults.
 
 use super::{
     CornerMeasure, GoodFeaturesOptions, OrbOptions, SiftNormalization, SiftOptions,
@@ -6,7 +6,7 @@ use super::{
 };
 use derive_setters::Setters;
 
-/// Which features to look for.
+/// Kind of features.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -14,7 +14,7 @@ use derive_setters::Setters;
     serde(rename_all = "snake_case")
 )]
 pub enum FeatureKind {
-    /// Scale-invariant features ([`detect_sift`](super::detect_sift)), Euclidean descriptors.
+    /// Scale-invariant features ([`detect_sift`](super::detect_sift)) with Euclidean descriptors.
     Sift,
     /// The same with the Hellinger kernel ([`SiftNormalization::Root`]).
     #[default]
@@ -22,12 +22,12 @@ pub enum FeatureKind {
     /// Oriented FAST corners with 256 comparisons ([`detect_orb`](super::detect_orb)).
     Orb,
     /// Harris corners with normalized patches ([`describe_patches`](super::describe_patches)), for
-    /// photographs from nearly the same place, without rotation or change of scale.
+    /// images from nearly the same position, without rotation or change of scale.
     Harris,
 }
 
-/// Options of feature detection. Every command and [`PhotoOptions`](crate::sfm::PhotoOptions) start
-/// from the default; see [`MatchOptions`](super::MatchOptions) and
+/// Options of feature detection, with the defaults of all commands and of
+/// [`PhotoOptions`](crate::sfm::PhotoOptions); see [`MatchOptions`](super::MatchOptions) and
 /// [`RansacOptions`](crate::robust::RansacOptions) for matches and models.
 ///
 /// ```
@@ -46,40 +46,39 @@ pub enum FeatureKind {
 pub struct FeatureOptions {
     /// RootSIFT.
     pub kind: FeatureKind,
-    /// Maximum number of features, the strongest; 0 means no limit. 8192.
+    /// Maximum number of features; the strongest are kept. 0 means no limit. 8192.
     pub max_features: usize,
     /// Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the
     /// kind. SIFT: [`SiftOptions::contrast_threshold`], 0.02, which includes faint features. ORB:
-    /// [`OrbOptions::fast_threshold`], 20/255. Harris: the share of the strongest response,
+    /// [`OrbOptions::fast_threshold`], 20/255. Harris: ratio to the strongest response,
     /// [`GoodFeaturesOptions::quality`], 0.01.
     pub contrast_threshold: Option<f32>,
-    /// Take every direction to be 0, for cameras held upright. Harris' corners have none. False.
+    /// Assume direction 0, for upright cameras. Harris corners have no direction. False.
     pub upright: bool,
-    /// SIFT: photographs of up to this many pixels are also searched at twice their size; larger
-    /// ones, which takes seconds, only if they have fewer than `max_features` without; none if 0.
-    /// 1.5 million.
+    /// SIFT: images of up to this many pixels are also searched at twice their size; larger ones,
+    /// for which this takes seconds, only if they have fewer than `max_features` without; none if
+    /// 0. 1.5 million.
     pub max_upsampled_pixels: u64,
     /// SIFT: assumed blur of the input, pixels, 0 to half of `sigma_px`. 0.5, as Lowe's; 0.3 gives
-    /// more matches in sharp photographs, fewer where features are rare.
+    /// more matches in sharp images, fewer where features are rare.
     pub input_blur_px: f64,
-    /// SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6.
+    /// SIFT: blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6.
     pub sigma_px: f64,
-    /// SIFT: layers per octave in which extrema are looked for, 1 to 10. 3.
+    /// SIFT: number of layers per octave that are searched for extrema, 1 to 10. 3.
     pub layers_per_octave: usize,
-    /// SIFT: the largest ratio of the principal curvatures, > 1. 10.
+    /// SIFT: maximum ratio of the principal curvatures, > 1. 10.
     pub edge_threshold: f32,
-    /// SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2.
+    /// SIFT: maximum number of directions per position, ≥ 1; each gives a feature. 2.
     pub max_orientations: usize,
-    /// SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1].
-    /// 0.8.
+    /// SIFT: minimum weight of a further direction, relative to the strongest, in (0, 1]. 0.8.
     pub orientation_peak_ratio: f32,
-    /// ORB: levels of the pyramid, 1 to 16. 8.
+    /// ORB: number of levels of the pyramid, 1 to 16. 8.
     pub num_levels: usize,
     /// ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2.
     pub scale_factor: f64,
-    /// Harris: the constant k of the measure, 0 to below 0.25. 0.04.
+    /// Harris: constant k of the measure, 0 to below 0.25. 0.04.
     pub harris_k: f32,
-    /// Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8.
+    /// Harris: minimum distance between corners, pixels; 0 allows neighbors. 8.
     pub min_distance_px: f64,
     /// Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3.
     pub tensor_window_px: usize,
@@ -113,8 +112,8 @@ impl Default for FeatureOptions {
 }
 
 impl FeatureOptions {
-    /// Options of SIFT for an image of that size, before the number of features in a large one is
-    /// known.
+    /// Returns the options of SIFT for an image of the given size; for a large image, without
+    /// upsampling.
     ///
     /// ```
     /// let options = epipole::feature::FeatureOptions::default();
@@ -139,7 +138,7 @@ impl FeatureOptions {
         }
     }
 
-    /// The options of ORB.
+    /// Returns the options of ORB.
     pub(super) fn orb(&self) -> OrbOptions {
         OrbOptions {
             max_features: match self.max_features {
@@ -154,7 +153,7 @@ impl FeatureOptions {
         }
     }
 
-    /// The options of Harris' corners.
+    /// Returns the options of Harris corners.
     pub(super) fn harris(&self) -> GoodFeaturesOptions {
         let default = GoodFeaturesOptions::default();
         GoodFeaturesOptions {

@@ -1,4 +1,4 @@
-//! The simplest descriptor: the gray values around a keypoint.
+//! Patch descriptors: the gray values around a keypoint.
 
 use super::{Descriptors, Keypoint};
 use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
@@ -6,18 +6,18 @@ use crate::math::monitored;
 use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 
-/// The gray values in a square around each keypoint, less their mean, scaled to unit length:
-/// invariant to brightness and contrast, to nothing else.
+/// Computes the gray values in a square around each keypoint, with mean removed and scaled to unit
+/// length: invariant only to brightness and contrast.
 ///
 /// * `size`: samples along a side, 2 to 64; the descriptor has `size²` numbers, rows first
 /// * `spacing_px`: distance between samples, pixels, > 0
 ///
-/// The inner product of two such descriptors is their normalized cross-correlation. The border
-/// repeats the edge pixel. A flat patch gives zeros. The one stage is [`Stage::FeatureDetection`].
+/// The inner product of two descriptors is their normalized cross-correlation. Border pixels are
+/// repeated outside. A flat patch gives zeros. The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a size or spacing outside its range, [`Error::NotFinite`] for a bad
-/// pixel.
+/// [`Error::OutOfRange`] for a size or spacing outside its range, [`Error::NotFinite`] for an
+/// invalid pixel.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -74,7 +74,7 @@ fn normalize(patch: &mut [f32]) {
         .iter()
         .map(|&v| (f64::from(v) - mean) * (f64::from(v) - mean));
     let norm = spread.sum::<f64>().sqrt();
-    // Less than rounding could make of a constant patch.
+    // At most what rounding makes of a constant patch.
     let flat = norm <= 1e-6 * count.sqrt() * mean.abs().max(1e-12);
     for v in patch {
         *v = if flat {

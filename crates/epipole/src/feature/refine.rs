@@ -1,4 +1,4 @@
-//! Corners to a fraction of a pixel.
+//! Sub-pixel refinement of corners.
 
 use crate::imaging::{Border, GrayImage32, require_finite, sample_bilinear};
 use crate::math::monitored;
@@ -19,14 +19,14 @@ use nalgebra::Point2;
 pub struct RefineOptions {
     /// Half the side of the window, pixels, 1 to 50: the window is `2 half + 1` wide.
     pub half_window: usize,
-    /// At most so many steps.
+    /// Maximum number of steps.
     pub max_iterations: usize,
-    /// Done when a step is shorter than this, pixels.
+    /// Step length at which the refinement ends, pixels.
     pub tolerance_px: f64,
 }
 
 impl Default for RefineOptions {
-    /// An 11×11 window, at most 40 steps, to 10⁻³ pixels.
+    /// Returns an 11×11 window and at most 40 steps, to 10⁻³ pixels.
     fn default() -> Self {
         Self {
             half_window: 5,
@@ -36,16 +36,16 @@ impl Default for RefineOptions {
     }
 }
 
-/// Each corner moved to the point where the gradients around it are perpendicular to the
-/// directions towards it: `q` that solves `Σ w g gᵀ (q − p) = 0` over the pixels p of the window.
+/// Moves each corner to the point where the surrounding gradients are perpendicular to the
+/// directions from it: `q` that solves `Σ w g gᵀ (q − p) = 0` over the pixels p of the window.
 ///
-/// The weights are `exp(−(x² + y²)/half²)`. A corner gives `None` where the window holds no
-/// corner (it is flat, or a single edge), where the point runs out of its window, or where it does
-/// not lie in the image. The one stage is [`Stage::FeatureDetection`].
+/// The weights are `exp(−(x² + y²)/half²)`. `None` for a corner whose window is flat or has a
+/// single edge, if the point leaves its window, or if it is outside the image. The only stage is
+/// [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for a window or a tolerance outside
-/// its range, [`Error::Canceled`].
+/// [`Error::NotFinite`] for an invalid pixel, [`Error::OutOfRange`] for a window or a tolerance
+/// outside its range, [`Error::Canceled`].
 ///
 /// Source: Förstner & Gülch 1987, "A fast operator for detection and precise location of distinct
 /// points, corners and centres of circular features", §4.
@@ -139,7 +139,7 @@ fn refine(
             }
         }
         let determinant = a * c - b * b;
-        // An edge leaves the point free along itself.
+        // An edge does not determine the point along itself.
         if determinant <= 1e-6 * (a + c) * (a + c) {
             return None;
         }
@@ -179,7 +179,7 @@ mod tests {
         let refined = refine_corners(&image, &start, &options, &mut ()).unwrap();
         let mut compared = 0;
         for ((got, want), from) in refined.iter().zip(&expected).zip(&start) {
-            // OpenCV leaves a corner that ran away where it began.
+            // For a diverging corner OpenCV returns the initial position.
             let Some(got) = got else { continue };
             if (want - from).norm() > 0.0 {
                 assert!((got - want).norm() < 2e-3, "{got} {want}");

@@ -1,5 +1,5 @@
-//! Rows of the structure tensor for derivative filters and windows of three weights, the usual
-//! ones: a loop from gray values to derivatives, one to their products, one over the window.
+//! Rows of the structure tensor for the usual derivative filters and windows of three weights: one
+//! loop from gray values to derivatives, one to their products, one over the window.
 //!
 //! The sums are those of [`along_and_across`](crate::imaging::rows::along_and_across), in the
 //! same order.
@@ -19,7 +19,7 @@ pub(super) struct ShortTensor<'a> {
     border: Border,
     du: Vec<f32>,
     dv: Vec<f32>,
-    /// Iu², Iu Iv and Iv² of a row with one more pixel at either end.
+    /// Iu², Iu Iv and Iv² of a row, with an extra pixel at either end.
     products: [Vec<f32>; 3],
     /// Sums along the last two rows of products, the older first.
     along: [[Vec<f32>; 2]; 3],
@@ -29,7 +29,7 @@ pub(super) struct ShortTensor<'a> {
 
 impl<'a> ShortTensor<'a> {
     /// * `scale_sq`: weight of the products
-    /// * `border`: of the products
+    /// * `border`: border of the products
     pub(super) fn new(
         image: &GrayImage32,
         derivative: ShortDerivative<'a>,
@@ -53,9 +53,9 @@ impl<'a> ShortTensor<'a> {
         }
     }
 
-    /// Takes in one more row of products. Once there are three, `sums` belong to the middle one.
+    /// Adds a row of products. Once there are three, `sums` belong to the middle one.
     ///
-    /// * `row`: may lie outside the image
+    /// * `row`: may be outside the image
     pub(super) fn push(&mut self, row: isize) {
         match self.border.index(row, self.height) {
             None => {
@@ -81,9 +81,9 @@ impl<'a> ShortTensor<'a> {
 }
 
 dispatched! {
-    /// Products of the derivatives.
+    /// Computes the products of the derivatives.
     ///
-    /// * `uu`, `uv`, `vv`: one value longer at either end, which stays
+    /// * `uu`, `uv`, `vv`: one value longer at either end, which is not changed
     fn multiply(
         scale_sq: f32,
         du: &[f32],
@@ -104,11 +104,11 @@ dispatched! {
 }
 
 dispatched! {
-    /// Sums over the window around the row before a new one.
+    /// Computes the sums over the window around the row before a new one.
     ///
     /// * `products`: the new row, one value longer at either end
-    /// * `before`: sums along the row before
-    /// * `along`: those of the row before that one, replaced by those of the new one
+    /// * `before`: sums along the previous row
+    /// * `along`: sums of the row before that, replaced by those of the new row
     fn sum_window(
         window: Three,
         products: &[f32],

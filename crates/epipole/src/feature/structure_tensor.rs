@@ -1,4 +1,4 @@
-//! The structure tensor: how the gradient is spread around each pixel.
+//! Structure tensor: the distribution of the gradient around each pixel.
 
 use super::short_tensor::ShortTensor;
 use crate::imaging::kernel::{Kernel, Row, Three};
@@ -21,14 +21,14 @@ use std::ops::Range;
     serde(rename_all = "snake_case")
 )]
 pub enum Window {
-    /// A square of so many pixels, each with weight 1. An even square reaches one pixel further
-    /// up and left, as in OpenCV.
+    /// A square of this side in pixels, with weights 1. An even square reaches one pixel further up
+    /// and left, as in OpenCV.
     Box(usize),
     /// A Gaussian of this standard deviation in pixels; its weights sum to 1.
     Gaussian(f64),
 }
 
-/// The units of the structure tensor and of the responses made from it.
+/// Scaling of the structure tensor and of its responses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -36,11 +36,11 @@ pub enum Window {
     serde(rename_all = "snake_case")
 )]
 pub enum Scaling {
-    /// Sums of products of the filter's answers as they are: whole numbers for whole gray values.
+    /// Sums of products of the unscaled filter responses: integers for integer gray values.
     #[default]
     Textbook,
-    /// OpenCV's: the derivative is divided by `2^(k−1) b` for a k×k filter and a box of b pixels
-    /// (1 for a Gaussian). On gray values in [0, 1] responses equal those of OpenCV for 8 bits.
+    /// OpenCV's: the derivative is divided by `2^(k−1) b` for a k×k filter and a box of b pixels (1
+    /// for a Gaussian). On gray values in [0, 1] responses equal those of OpenCV for 8 bits.
     OpenCv,
 }
 
@@ -54,18 +54,18 @@ pub enum Scaling {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct StructureTensorOptions {
-    /// The filter for the derivatives.
+    /// Derivative filter.
     pub derivative: DerivativeFilter,
-    /// The weights of the neighbors.
+    /// Weights of the neighbors.
     pub window: Window,
-    /// The units.
+    /// Scaling.
     pub scaling: Scaling,
     /// Border of the image; derivatives beyond a constant border count as 0.
     pub border: Border,
 }
 
 impl Default for StructureTensorOptions {
-    /// Sobel 3×3, a box of 3×3 pixels, textbook scaling, mirrored border.
+    /// Returns Sobel 3×3, a box of 3×3 pixels, textbook scaling, and a mirrored border.
     fn default() -> Self {
         Self {
             derivative: DerivativeFilter::Sobel3,
@@ -77,7 +77,7 @@ impl Default for StructureTensorOptions {
 }
 
 impl StructureTensorOptions {
-    /// Weights of the derivatives; `block` as [`window_kernel`] has it.
+    /// Returns the weight of the derivatives; `block` as from [`window_kernel`].
     pub(super) fn scale(&self, block: f32) -> f32 {
         match self.scaling {
             Scaling::Textbook => 1.0,
@@ -85,7 +85,7 @@ impl StructureTensorOptions {
                 let size = match self.derivative {
                     DerivativeFilter::Sobel3 => 4.0,
                     DerivativeFilter::Sobel5 => 16.0,
-                    // OpenCV halves once more for Scharr, whose kernel sums to 32.
+                    // OpenCV halves again for Scharr, whose kernel sums to 32.
                     DerivativeFilter::Scharr => 8.0,
                 };
                 1.0 / (size * block)
@@ -106,7 +106,7 @@ pub struct StructureTensor {
 }
 
 impl StructureTensor {
-    /// The two eigenvalues at a pixel, the larger first; `None` outside the image.
+    /// Returns the two eigenvalues at a pixel, the larger first; `None` outside the image.
     ///
     /// `λ = (M₁₁ + M₂₂)/2 ± √(((M₁₁ − M₂₂)/2)² + M₁₂²)`; two small ones mean a flat patch, one
     /// large an edge, two large a corner.
@@ -130,7 +130,7 @@ impl StructureTensor {
     }
 }
 
-/// The structure tensor of an image. The one stage is [`Stage::FeatureDetection`].
+/// Computes the structure tensor of an image. The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// [`Error::NotFinite`] for a NaN or infinite pixel, [`Error::OutOfRange`] for a window of size 0
@@ -142,7 +142,7 @@ impl StructureTensor {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{StructureTensorOptions, structure_tensor};
 /// use epipole::imaging::gray_from_values;
-/// // A vertical step: Sobel answers 4 on both sides of it, a 3×3 box sums nine squares.
+/// // A vertical step: Sobel gives 4 on both sides, a 3×3 box sums nine squares.
 /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
 /// let tensor = structure_tensor(&step, &StructureTensorOptions::default(), &mut ())?;
 /// assert_eq!(tensor.eigenvalues(2, 1), Some((96.0, 0.0)));
@@ -161,8 +161,8 @@ pub fn structure_tensor(
     Ok(StructureTensor { uu, uv, vv })
 }
 
-/// Computes the tensor row by row and lets `finish` make the output rows from it, so that the
-/// tensor itself need not be stored.
+/// Computes the tensor row by row and passes it to `finish`, which writes the output rows, so that
+/// the tensor need not be stored.
 pub(crate) fn with_tensor<const N: usize>(
     image: &GrayImage32,
     options: &StructureTensorOptions,
@@ -197,13 +197,13 @@ pub(crate) fn with_tensor<const N: usize>(
     }))
 }
 
-/// The window's weights along one axis and the factor that OpenCV divides derivatives by.
+/// Returns the window's weights along one axis and the factor by which OpenCV divides derivatives.
 pub(super) fn window_kernel(window: Window) -> Result<(Vec<f32>, f32)> {
     match window {
         Window::Box(size) if (1..=255).contains(&size) => {
             let mut kernel = vec![1.0; size];
             if size % 2 == 0 {
-                // An odd kernel whose last weight is nothing.
+                // An odd kernel with a last weight of zero.
                 kernel.push(0.0);
             }
             Ok((kernel, size as f32))
@@ -234,7 +234,7 @@ struct TensorRows<'a> {
 }
 
 impl TensorRows<'_> {
-    /// Passes the three sums of each row to `finish`, which makes the output rows of `sink`.
+    /// Passes the three sums of each row to `finish`, which writes the output rows of `sink`.
     ///
     /// # Errors
     /// [`Error::Canceled`].
@@ -307,7 +307,7 @@ impl TensorRows<'_> {
         }
     }
 
-    /// The tensor for the usual derivatives and windows.
+    /// Returns the optimized tensor for the usual derivatives and windows.
     fn short(&self) -> Option<ShortTensor<'_>> {
         let (image, options) = (self.image, self.options);
         let window = Three::new(self.kernel)?;
@@ -322,7 +322,7 @@ impl TensorRows<'_> {
         ))
     }
 
-    /// [`run`](Self::run) by loops of their own.
+    /// Runs like [`run`](Self::run), with specialized loops.
     fn run_short<const N: usize>(
         &self,
         mut tensor: ShortTensor,
@@ -414,7 +414,7 @@ mod tests {
         );
     }
 
-    /// Short filters have loops of their own: against the general filters, to the last bit.
+    /// Short filters have specialized loops, equal to the general filters to the last bit.
     #[test]
     fn sums_are_those_of_filtered_products() {
         use crate::imaging::{derivative, gaussian_kernel, separable_filter};

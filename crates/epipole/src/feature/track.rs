@@ -1,4 +1,4 @@
-//! Following points from one image to the next.
+//! Tracking of points from one image to the next.
 
 use crate::imaging::{
     Border, Gradient, GrayImage32, centered_difference, gaussian_pyramid, require_finite,
@@ -22,22 +22,22 @@ use nalgebra::Point2;
 pub struct TrackOptions {
     /// Half the side of the window, pixels, 1 to 50.
     pub half_window: usize,
-    /// Levels of the pyramid, 1 to 12; each doubles the motion that can be followed.
+    /// Number of levels of the pyramid, 1 to 12; each doubles the maximum motion.
     pub num_levels: usize,
     /// Maximum number of steps per level, ≥ 1.
     pub max_iterations: usize,
-    /// Done when a step is shorter than this, pixels, > 0.
+    /// Step length at which the iteration ends, pixels, > 0.
     pub tolerance_px: f64,
-    /// Minimum of the smaller eigenvalue per pixel, for slopes of gray values in [0, 1] per pixel,
-    /// squared; flatter windows are lost.
+    /// Minimum of the smaller eigenvalue per pixel, for squared gradients of gray values in [0, 1]
+    /// per pixel; points with flatter windows are lost.
     pub min_eigenvalue: f64,
-    /// Following back must end within this distance of the start, pixels; `None` leaves the
-    /// check out.
+    /// Maximum distance between a point and its position when tracked back, pixels; `None` disables
+    /// the check.
     pub max_forward_backward_px: Option<f64>,
 }
 
 impl Default for TrackOptions {
-    /// A 21×21 window, 4 levels, 30 steps to 0.01 pixels, back within 1 pixel.
+    /// Returns a 21×21 window, 4 levels, 30 steps to 0.01 pixels, and back within 1 pixel.
     fn default() -> Self {
         Self {
             half_window: 10,
@@ -50,7 +50,7 @@ impl Default for TrackOptions {
     }
 }
 
-/// A point that was followed.
+/// A tracked point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track {
     /// Position in the second image, pixels.
@@ -66,17 +66,17 @@ pub struct Track {
 ///
 /// At each level of the pyramid the displacement d minimizes `Σ (I₁(p) − I₂(p + d))²` over the
 /// window by Gauss–Newton steps with the gradient of the first image. A point is lost if its window
-/// is too flat or a single edge, if it leaves the image, or if tracking it back ends elsewhere. The
-/// one stage is [`Stage::Tracking`].
+/// is too flat or has a single edge, if it leaves the image, or if tracking it back ends elsewhere.
+/// The only stage is [`Stage::Tracking`].
 ///
 /// * `points`: pixels in the first image
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for images of different size, [`Error::NotFinite`] for a bad pixel,
+/// [`Error::SizeMismatch`] for images of different size, [`Error::NotFinite`] for an invalid pixel,
 /// [`Error::OutOfRange`] for an option outside its range, [`Error::Canceled`].
 ///
-/// Source: Lucas & Kanade 1981; Bouguet 2000, "Pyramidal implementation of the Lucas Kanade
-/// feature tracker"; Kalal, Mikolajczyk & Matas 2010 for the way back.
+/// Source: Lucas & Kanade 1981; Bouguet 2000, "Pyramidal implementation of the Lucas Kanade feature
+/// tracker"; Kalal, Mikolajczyk & Matas 2010 for tracking back.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -149,7 +149,7 @@ pub fn track_lucas_kanade(
     })
 }
 
-/// Share of the time that the pyramids take where many points are followed.
+/// Progress after the pyramids, if there are many points.
 const PYRAMIDS_SHARE: f32 = 0.1;
 
 struct Level {
@@ -157,7 +157,7 @@ struct Level {
     gradient: Gradient,
 }
 
-/// Levels of the pyramid that are at least as large as the window, largest first.
+/// Returns the levels of the pyramid that are at least as large as the window, largest first.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -182,7 +182,7 @@ fn levels(
     Ok(levels)
 }
 
-/// The point in the second image and the mean residual.
+/// Tracks a point to the second image; returns it with the mean residual.
 fn follow(
     first: &[Level],
     second: &[Level],
@@ -192,7 +192,7 @@ fn follow(
     let mut shift = [0.0, 0.0];
     let mut residual = 0.0;
     for (k, (from, to)) in first.iter().zip(second).enumerate().rev() {
-        // Sample i of a level lies at 2i in the one below.
+        // Sample i of a level is sample 2i of the next finer one.
         let scale = (1u64 << k) as f64;
         let place = [point.x / scale, point.y / scale];
         shift = shift.map(|s| 2.0 * s);
@@ -202,7 +202,7 @@ fn follow(
     Some((there, residual))
 }
 
-/// The displacement at one level, from an initial guess.
+/// Computes the displacement at one level, from an initial guess.
 fn step_down(
     from: &Level,
     to: &Level,
@@ -319,7 +319,7 @@ mod tests {
         let (first, second) = (fixture::gray8("track_1.npy"), fixture::gray8("track_2.npy"));
         let [first, second] = [first, second].map(|image| crate::imaging::gray_to_f32(&image));
         let list = fixture::floats("track_points.npy");
-        // Each row: start, where the warp puts it, where OpenCV finds it.
+        // Each row: initial position, true position by the warp, and OpenCV's result.
         let points: Vec<Point2<f64>> = list
             .values
             .chunks_exact(6)

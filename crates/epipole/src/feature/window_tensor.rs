@@ -1,4 +1,4 @@
-//! The structure tensor of one window, and how much the window changes when it is shifted.
+//! Structure tensor of a single window, and its change under shifts.
 
 use super::structure_tensor::window_kernel;
 use super::{StructureTensor, StructureTensorOptions};
@@ -18,7 +18,7 @@ pub struct WindowTensor {
 }
 
 impl WindowTensor {
-    /// The tensor of a window from the gradients (Iᵤ, Iᵥ) of its pixels.
+    /// Computes the tensor of a window from the gradients (Iᵤ, Iᵥ) of its pixels.
     ///
     /// ```
     /// use epipole::feature::WindowTensor;
@@ -35,18 +35,18 @@ impl WindowTensor {
         })
     }
 
-    /// The tensor at one pixel of an image: what [`structure_tensor`](super::structure_tensor) has
-    /// there, without those of all other pixels.
+    /// Computes the value of [`structure_tensor`](super::structure_tensor) at one pixel of an
+    /// image, without those of all other pixels.
     ///
     /// # Errors
-    /// As [`structure_tensor`](super::structure_tensor), where only the pixels that count must be
-    /// finite; [`Error::OutOfRange`] for a pixel outside the image.
+    /// As [`structure_tensor`](super::structure_tensor), where only the pixels used must be finite;
+    /// [`Error::OutOfRange`] for a pixel outside the image.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::feature::{StructureTensorOptions, WindowTensor};
     /// use epipole::imaging::gray_from_values;
-    /// // A vertical step: Sobel answers 4 on both sides of it, a 3×3 box sums nine squares.
+    /// // A vertical step: Sobel gives 4 on both sides, a 3×3 box sums nine squares.
     /// let step = gray_from_values(6, 3, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0].repeat(3))?;
     /// let tensor = WindowTensor::at(&step, (2, 1), &StructureTensorOptions::default())?;
     /// assert_eq!(tensor, WindowTensor { uu: 96.0, uv: 0.0, vv: 0.0 });
@@ -87,7 +87,7 @@ impl WindowTensor {
             }
             sum * scale
         };
-        // Derivatives beyond a constant border count as 0.
+        // Derivatives beyond a constant border are 0.
         let beside = |at: u32, k: usize, length: usize| {
             let place = at as isize + k as isize - radius as isize;
             options.border.index(place, length)
@@ -115,7 +115,7 @@ impl WindowTensor {
         Ok(tensor)
     }
 
-    /// The product of the eigenvalues, `Σ Iᵤ² Σ Iᵥ² − (Σ Iᵤ Iᵥ)²`.
+    /// Returns the product of the eigenvalues, `Σ Iᵤ² Σ Iᵥ² − (Σ Iᵤ Iᵥ)²`.
     pub fn determinant(&self) -> f64 {
         self.uu * self.vv - self.uv * self.uv
     }
@@ -125,7 +125,7 @@ impl WindowTensor {
         self.uu + self.vv
     }
 
-    /// The two eigenvalues, the larger first; of a sum of squares neither is negative.
+    /// Returns the two eigenvalues, the larger first; neither is negative.
     ///
     /// `λ = (M₁₁ + M₂₂)/2 ± √(((M₁₁ − M₂₂)/2)² + M₁₂²)`.
     ///
@@ -140,8 +140,8 @@ impl WindowTensor {
         (mean + radius, (mean - radius).max(0.0))
     }
 
-    /// The direction in which a shift changes the window most, the eigenvector of the larger
-    /// eigenvalue: `atan2(v, u)` with v down, in (−π/2, π/2]; 0 if all directions are alike.
+    /// Returns the direction in which a shift changes the window most, the eigenvector of the
+    /// larger eigenvalue: `atan2(v, u)` with v down, in (−π/2, π/2]; 0 if all directions are equal.
     ///
     /// ```
     /// use epipole::feature::WindowTensor;
@@ -154,7 +154,8 @@ impl WindowTensor {
         0.5 * libm::atan2(2.0 * self.uv, self.uu - self.vv)
     }
 
-    /// Harris' measure `R = det M − k (trace M)²`: positive at corners, negative on edges.
+    /// Computes the Harris measure `R = det M − k (trace M)²`: positive at corners, negative on
+    /// edges.
     ///
     /// Source: Harris & Stephens 1988, "A combined corner and edge detector", eq. 13.
     ///
@@ -170,7 +171,8 @@ impl WindowTensor {
         self.determinant() - k * trace * trace
     }
 
-    /// Taylor's estimate of the squared change of the window under a small shift, `Δᵀ M Δ`.
+    /// Returns the first-order estimate of the squared change of the window under a small shift,
+    /// `Δᵀ M Δ`.
     ///
     /// ```
     /// use epipole::feature::WindowTensor;
@@ -185,7 +187,7 @@ impl WindowTensor {
 }
 
 impl StructureTensor {
-    /// The tensor at one pixel; `None` outside the image.
+    /// Returns the tensor at one pixel; `None` outside the image.
     ///
     /// ```
     /// use epipole::feature::{StructureTensor, WindowTensor};
@@ -208,7 +210,7 @@ impl StructureTensor {
     }
 }
 
-/// Change of a window under every shift by whole pixels up to a reach.
+/// Change of a window under every shift by integer pixels within a range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShiftSurface {
     reach: usize,
@@ -216,12 +218,13 @@ pub struct ShiftSurface {
 }
 
 impl ShiftSurface {
-    /// The largest shift to each side, pixels.
+    /// Returns the maximum shift in each direction, pixels.
     pub fn reach(&self) -> usize {
         self.reach
     }
 
-    /// The squared change under the shift by `du` columns and `dv` rows; `None` beyond the reach.
+    /// Returns the squared change under a shift by `du` columns and `dv` rows; `None` beyond the
+    /// range.
     pub fn at(&self, du: i32, dv: i32) -> Option<f64> {
         let side = 2 * self.reach + 1;
         let index = |shift: i32| {
@@ -232,12 +235,12 @@ impl ShiftSurface {
     }
 }
 
-/// Change of a window when it is shifted, `E(Δ) = Σ (I(p + Δ) − I(p))²` over the pixels p
-/// of the window, for every Δ of whole pixels up to a reach.
+/// Computes the change of a window under shifts, `E(Δ) = Σ (I(p + Δ) − I(p))²` over the pixels p of
+/// the window, for all integer Δ within a range.
 ///
 /// * `center`: column and row of the window's middle, within the image
 /// * `half_window`: the window is `2 half + 1` pixels wide and high; at most 127
-/// * `reach`: the largest shift to each side, pixels, at most 127
+/// * `reach`: maximum shift in each direction, pixels, at most 127
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a center outside the image, a half window or a reach above 127,
@@ -378,7 +381,7 @@ mod tests {
 
     use crate::feature::{Scaling, Window, harris_response, structure_tensor};
 
-    /// A smooth hill with its top off the middle.
+    /// A smooth hill with its top away from the middle.
     fn hill() -> GrayImage32 {
         GrayImage32::from_fn(41, 41, |u, v| {
             let (x, y) = (f64::from(u) - 17.0, f64::from(v) - 22.0);
@@ -415,7 +418,7 @@ mod tests {
             window: Window::Box(9),
             ..StructureTensorOptions::default()
         };
-        // Sobel answers 8 times the slope.
+        // Sobel gives 8 times the slope.
         let sums = structure_tensor(&image, &options, &mut ()).unwrap();
         let sums = sums.at(12, 15).unwrap();
         let tensor = WindowTensor {
@@ -426,7 +429,7 @@ mod tests {
         let surface = shift_surface(&image, (12, 15), 4, 1, Border::Replicate).unwrap();
         assert_eq!(surface.at(0, 0), Some(0.0));
         for (du, dv) in [(1, 0), (0, 1), (1, 1), (-1, 1)] {
-            // The mean of both ways is free of the next term of the series.
+            // The mean of both directions cancels the next term of the series.
             let mean = 0.5 * (surface.at(du, dv).unwrap() + surface.at(-du, -dv).unwrap());
             let estimate = tensor.change(&Vector2::new(f64::from(du), f64::from(dv)));
             assert!((mean - estimate).abs() < 0.03 * mean, "{mean} {estimate}");
@@ -451,7 +454,7 @@ mod tests {
 
     #[test]
     fn shifts_are_counted_from_the_window() {
-        // Only the pixel (4, 3) is bright; the window is a single pixel beside it.
+        // Only the pixel (4, 3) is bright; the window is a single pixel next to it.
         let mut image = GrayImage32::new(8, 8);
         image.put_pixel(4, 3, image::Luma([3.0]));
         let surface = shift_surface(&image, (3, 5), 0, 2, Border::Replicate).unwrap();

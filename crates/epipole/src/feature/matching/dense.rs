@@ -1,7 +1,7 @@
-//! Exact search among descriptors of numbers.
+//! Exact nearest-neighbor search for numeric descriptors.
 //!
-//! The first list is cut into pieces, which threads share; a piece is compared with the second
-//! list tile by tile. Distances are compared squared; roots are taken of the two that remain.
+//! The first list is cut into pieces for threads; a piece is compared with the second list tile by
+//! tile. Distances are compared as squares; roots are taken only of the two nearest.
 
 use super::dots;
 use super::floats::Floats;
@@ -15,11 +15,11 @@ use crate::{Error, Result};
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// Descriptors of the first list that share a walk over the second.
+/// Number of descriptors of the first list that share a pass over the second.
 const ROWS: usize = 64;
-/// Numbers of the first list that share a walk over the second, if descriptors are long.
+/// Number of values of the first list that share a pass over the second, for long descriptors.
 const ROW_NUMBERS: usize = 128 * ROWS;
-/// Descriptors of the first list whose results are gathered at once.
+/// Number of descriptors of the first list whose results are collected at once.
 const GROUP: usize = 1024;
 
 pub(super) fn search(
@@ -53,7 +53,7 @@ pub(super) fn search(
     gather([first.len(), second.count(), n], scan, monitor)
 }
 
-/// A type of squared distance.
+/// Type of a squared distance.
 trait Distance: Copy + PartialOrd + Send + Sync + Into<f64> {
     const FARTHEST: Self;
 }
@@ -90,7 +90,7 @@ fn gather<D: Distance>(
                 distance: root(near) as f32,
                 second_distance: (num_columns > 1).then(|| root(second) as f32),
             }));
-            // Pieces come in order, so that of equally near ones the first stays.
+            // Pieces come in order, so the first of equally near ones is kept.
             for (held, (distance, row)) in nearest.iter_mut().zip(scanned.columns) {
                 if distance < held.0 {
                     *held = (distance, piece.start + row);
@@ -105,7 +105,7 @@ fn gather<D: Distance>(
     })
 }
 
-/// The values as bytes, if all are whole numbers from 0 to 255.
+/// Returns the values as bytes, if all are integers from 0 to 255.
 fn whole_bytes(descriptors: &Descriptors) -> Option<Cow<'_, [u8]>> {
     match descriptors.values() {
         Values::Bytes(values) => Some(Cow::Borrowed(values)),

@@ -1,8 +1,7 @@
 //! Inner products of eight packed descriptors with four others, in 16-bit integers.
 //!
-//! Every variant adds the same whole numbers, so all give the same result: SSE2 is part of every
-//! 64-bit x86 processor, AVX2 is used where the processor has it, WebAssembly has its own, and
-//! anything else takes the portable loop.
+//! All variants add the same integers, so all give the same result: SSE2 on any 64-bit x86
+//! processor, AVX2 if available, WebAssembly SIMD, and otherwise the portable loop.
 
 #![allow(
     unsafe_code,
@@ -12,7 +11,7 @@
 use super::integers::{Integers, Packed, Piece, State, walk};
 use super::neighbors::Scanned;
 
-/// The two nearest of each descriptor in a piece of the first list.
+/// Returns the two nearest neighbors of each descriptor in a piece of the first list.
 pub(super) fn scan(second: &Integers, bytes: &[u8]) -> Scanned<i32> {
     let piece = Piece::new(bytes, second);
     let mut state = State::new(second, &piece);
@@ -20,7 +19,7 @@ pub(super) fn scan(second: &Integers, bytes: &[u8]) -> Scanned<i32> {
     state.scanned(second, &piece)
 }
 
-/// Compares a piece of the first list with the second list in the way that suits the processor.
+/// Compares a piece of the first list with the second list by the best available variant.
 fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
     #[cfg(target_arch = "x86_64")]
     {
@@ -29,7 +28,7 @@ fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
             walk(second, piece, state, |eight, four| avx2(eight, four));
         }
         if std::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has AVX2, as was just checked.
+            // SAFETY: the processor has AVX2, as checked above.
             return unsafe { wide(second, piece, state) };
         }
         walk(second, piece, state, sse2);
@@ -43,8 +42,8 @@ fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
     walk(second, piece, state, portable);
 }
 
-/// Inner products of eight packed descriptors with each of four plain ones, whose pairs of
-/// numbers are packed into one `i32`, low half first. All have equally many pairs.
+/// Inner products of eight packed descriptors with each of four plain ones, whose pairs of numbers
+/// are packed into one `i32`, low half first. All have the same number of pairs.
 #[cfg_attr(
     any(target_arch = "x86_64", target_arch = "wasm32"),
     allow(dead_code, reason = "only other processors take it")

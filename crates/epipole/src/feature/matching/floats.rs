@@ -1,21 +1,21 @@
 //! Squared distances between descriptors of floats.
 //!
-//! Eight descriptors of the first list are interleaved, one per lane. Differences are squared, not
-//! lengths subtracted: near neighbors would lose their digits.
+//! Eight descriptors of the first list are interleaved, one per lane. Squared differences are
+//! summed, as subtracting squared lengths would lose precision for near neighbors.
 
 use super::neighbors::Scanned;
 use crate::math::simd::dispatched;
 
-/// Descriptors of the second list in a tile.
+/// Number of descriptors of the second list in a tile.
 const TILE: usize = 64;
 
-/// The second list.
+/// Second list.
 pub(super) struct Floats {
     dimension: usize,
     values: Vec<f32>,
 }
 
-/// The two nearest so far of eight descriptors.
+/// Two nearest neighbors so far of eight descriptors.
 #[derive(Clone, Copy)]
 struct Eight {
     near: [f32; 8],
@@ -32,7 +32,7 @@ impl Floats {
         self.values.len() / self.dimension
     }
 
-    /// The two nearest of each descriptor in a piece of the first list.
+    /// Returns the two nearest neighbors of each descriptor in a piece of the first list.
     pub(super) fn scan(&self, piece: &[f32]) -> Scanned<f32> {
         let n = self.dimension;
         let count = piece.len() / n;
@@ -54,7 +54,7 @@ impl Floats {
             for (group, eight) in packed.chunks_exact(n).enumerate() {
                 let lanes = (count - 8 * group).min(8);
                 for column in (tile..tile_end).step_by(4) {
-                    // The last three may stand in for a missing fourth; they are not used twice.
+                    // Repeated descriptors fill the last group of four; they are not counted twice.
                     let last = tile_end - 1;
                     let plain = |j: usize| {
                         let at = (column + j).min(last) * n;

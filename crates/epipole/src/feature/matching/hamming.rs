@@ -1,4 +1,4 @@
-//! Matches between descriptors of bits.
+//! Matching of binary descriptors.
 
 use super::neighbors::{Found, Neighbors};
 use crate::Result;
@@ -7,12 +7,13 @@ use crate::math::{monitored, parallel};
 use crate::progress::{Monitor, Part, Stage, report};
 use std::ops::Range;
 
-/// Descriptors of the first list that share a walk over the second.
+/// Number of descriptors of the first list that share a pass over the second.
 const ROWS: usize = 128;
-/// Pieces of the first list whose results are gathered at once.
+/// Number of pieces of the first list whose results are collected at once.
 const GROUP: usize = 8;
 
-/// For each descriptor of one list the two of the other with the fewest bits that differ, exactly.
+/// Finds, for each descriptor of one list, the two of the other with the smallest Hamming distance,
+/// exactly.
 pub(super) fn search(
     first: &[[u64; 4]],
     second: &[[u64; 4]],
@@ -51,7 +52,8 @@ pub(super) fn search(
     })
 }
 
-/// Neighbors of a piece of the first list, and for each of the second its nearest in that piece.
+/// Returns the neighbors of a piece of the first list, and for each of the second list its nearest
+/// in that piece.
 fn scan(
     first: &[[u64; 4]],
     second: &[[u64; 4]],

@@ -1,24 +1,24 @@
-//! Squared distances between descriptors of bytes, in whole numbers.
+//! Squared distances between byte descriptors, in integers.
 //!
-//! Eight descriptors of the first list are interleaved, so that one vector instruction serves all
+//! Eight descriptors of the first list are interleaved, so that a vector instruction processes all
 //! eight and no sum is taken across a vector. `|a − b|² = |a|² + |b|² − 2 a·b` is exact here.
 
 use super::neighbors::Scanned;
 
-/// Descriptors of the second list in a tile: with pairs of 128 numbers they fill 16 KiB.
+/// Number of descriptors of the second list in a tile: with pairs of 128 numbers they fill 16 KiB.
 const TILE: usize = 64;
 
-/// Squared length of what fills up lists: farther than any descriptor (4096 · 255² = 2.7 · 10⁸),
-/// and two of them still fit.
+/// Squared length of padding descriptors: larger than any actual one (4096 · 255² = 2.7 · 10⁸), yet
+/// the sum of two fits.
 const FILLER: i32 = 1 << 29;
 
-/// The second list.
+/// Second list.
 pub(super) struct Integers {
     dimension: usize,
-    /// Numbers per descriptor, halved and rounded up.
+    /// Number of values per descriptor, halved and rounded up.
     pairs: usize,
     count: usize,
-    /// Pairs of numbers, low half first; zero descriptors fill up a multiple of four.
+    /// Pairs of values, low half first; padded with zero descriptors to a multiple of four.
     values: Vec<i32>,
     /// Squared lengths.
     norms: Vec<i32>,
@@ -52,8 +52,8 @@ fn norm_sq(row: &[u8]) -> i32 {
     row.iter().map(|&v| i32::from(v) * i32::from(v)).sum()
 }
 
-/// Two neighboring numbers of eight descriptors: number 2k and 2k + 1 of the first, then of the
-/// second, and so on.
+/// Two adjacent values of eight descriptors: values 2k and 2k + 1 of the first, then of the second,
+/// and so on.
 pub(super) type Packed = [i16; 16];
 
 /// A piece of the first list, interleaved by eight.
@@ -86,8 +86,8 @@ impl Piece {
     }
 }
 
-/// The two nearest so far of eight descriptors. Distances lack the eight's own squared lengths,
-/// which change no order.
+/// Two nearest neighbors so far of eight descriptors. Distances lack the eight's own squared
+/// lengths, which do not change the order.
 #[derive(Clone, Copy)]
 struct Eight {
     near: [i32; 8],
@@ -112,7 +112,7 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Nothing found yet.
+    /// Creates an empty state.
     pub(super) fn new(second: &Integers, piece: &Piece) -> Self {
         Self {
             rows: vec![Eight::default(); piece.norms.len()],
@@ -120,7 +120,7 @@ impl State {
         }
     }
 
-    /// The neighbors, once all of the second list was compared.
+    /// Returns the neighbors after the comparison with the whole second list.
     pub(super) fn scanned(mut self, second: &Integers, piece: &Piece) -> Scanned<i32> {
         let rows = (0..piece.count).map(|k| {
             let (eight, lane) = (&self.rows[k / 8], k % 8);
@@ -168,7 +168,7 @@ pub(super) fn walk(
                         near |= i32::from(d < rows.second[lane]);
                         near |= i32::from(d + own_norms[lane] < best.0);
                     }
-                    // Seldom: a list of n sees about 2 ln n improvements per descriptor.
+                    // Rare: a list of n has about 2 ln n improvements per descriptor.
                     if near != 0 {
                         improve(rows, best, &distances, own_norms, column + j, group);
                     }

@@ -1,4 +1,4 @@
-//! Matches between the features of two images: exact nearest neighbors and tests of them.
+//! Matching of features between two images: exact nearest neighbors and filters.
 
 mod dense;
 mod dots;

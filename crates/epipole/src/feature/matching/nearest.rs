@@ -1,4 +1,4 @@
-//! Nearest descriptors and matches, by the distance of their kind.
+//! Nearest descriptors and matches, by the metric of the descriptors.
 
 use super::neighbors::{Found, Neighbors};
 use super::options::{MatchOptions, check};
@@ -9,16 +9,16 @@ use crate::math::order::{at_rank, order_by};
 use crate::progress::Monitor;
 use crate::{Error, Result};
 
-/// For each descriptor of `first` its two nearest in `second`, without approximation: by Euclidean
-/// distance, bits by the number that differ.
+/// Finds, for each descriptor of `first`, the two nearest in `second`, exactly: by Euclidean
+/// distance, or by Hamming distance for bits.
 ///
-/// Empty lists give an empty result. Whole numbers from 0 to 255, such as SIFT's, are compared in
-/// integers, whether kept as bytes or as floats; other numbers in `f32`. The one stage is
+/// Empty lists give an empty result. Integers from 0 to 255, such as SIFT's, are compared in
+/// integers, whether stored as bytes or as floats; other numbers in `f32`. The only stage is
 /// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
-/// [`Error::Degenerate`] if one list is of numbers and the other of bits, [`Error::SizeMismatch`]
-/// for descriptors of different length, [`Error::Canceled`].
+/// [`Error::Degenerate`] if one list is numeric and the other binary, [`Error::SizeMismatch`] for
+/// descriptors of different length, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -48,13 +48,13 @@ fn search(first: &Descriptors, second: &Descriptors, monitor: &mut dyn Monitor) 
     }
 }
 
-/// The entries of a list nearest to one descriptor, by Euclidean distance: their indices and
-/// distances, nearest first, of equally near ones the lowest index first.
+/// Finds the entries of a list nearest to one descriptor, by Euclidean distance: returns indices
+/// and distances, nearest first; of equally near ones the lowest index first.
 ///
-/// * `query`: a descriptor, as long as those of the list
+/// * `query`: a descriptor of the same length as those of the list
 /// * `count`: maximum number of entries
 ///
-/// [`nearest_two`] gives the distance of the second nearest, this function also its index.
+/// [`nearest_two`] gives only the distance of the second nearest, this function also its index.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for a query of another length, [`Error::NotFinite`] for one with NaN or
@@ -88,7 +88,7 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
             apart.map(|d| d * d).sum::<f64>().sqrt() as f32
         })
         .collect();
-    // Most are too far away to be sorted.
+    // Avoid sorting all, since most are too far away.
     let mut all: Vec<f64> = distances.iter().map(|&d| f64::from(d)).collect();
     let farthest = match count {
         0 => return Ok(Vec::new()),
@@ -103,11 +103,10 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
     Ok(order.into_iter().map(|place| near[place]).collect())
 }
 
-/// Matches between two lists of descriptors, in the order of the first list.
+/// Matches two lists of descriptors; matches are in the order of the first list.
 ///
-/// Empty lists give no matches. See [`Match`] for the treatment of a lone candidate. The one stage
-/// is
-/// [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
+/// Empty lists give no matches. See [`Match`] for the treatment of a single candidate. The only
+/// stage is [`Stage::FeatureMatching`](crate::progress::Stage::FeatureMatching).
 ///
 /// # Errors
 /// As [`nearest_two`], and [`Error::OutOfRange`] for an option outside its range.
@@ -120,7 +119,7 @@ pub fn nearest_few(query: &[f32], list: &Descriptors, count: usize) -> Result<Ve
 /// let matches = match_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;
 /// assert_eq!((matches[0].index1, matches[0].index2, matches[0].distance), (0, 1, 0.25));
 /// assert_eq!((matches[1].index1, matches[1].index2, matches[1].distance), (1, 0, 0.5));
-/// // Binary descriptors are compared by the number of bits that differ.
+/// // Binary descriptors are compared by Hamming distance.
 /// let first = Descriptors::from_bits(vec![[0b1011, 0, 0, 0]]);
 /// let second = Descriptors::from_bits(vec![[0, 0, 0, 0], [0b1111, 0, 0, 0]]);
 /// let matches = match_descriptors(&first, &second, &MatchOptions::default(), &mut ())?;

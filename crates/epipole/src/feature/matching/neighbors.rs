@@ -1,13 +1,13 @@
-//! Nearest neighbors: of one descriptor, of two lists, of a piece of the first list.
+//! Nearest neighbors of a descriptor, of two lists, and of a piece of the first list.
 
 /// The two nearest descriptors in the second list.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbors {
-    /// Index of the nearest; of equally near ones the lowest.
+    /// Index of the nearest descriptor; of equally near ones the lowest.
     pub index: usize,
-    /// Its distance.
+    /// Distance of the nearest descriptor.
     pub distance: f32,
-    /// Distance of the second nearest; `None` if the second list has one entry only.
+    /// Distance of the second nearest; `None` if the second list has only one entry.
     pub second_distance: Option<f32>,
 }
 
@@ -21,18 +21,19 @@ impl Neighbors {
     }
 }
 
-/// Nearest neighbors both ways.
+/// Nearest neighbors in both directions.
 pub(super) struct Found {
-    /// For each of the first list.
+    /// Neighbors of each descriptor of the first list.
     pub(super) rows: Vec<Neighbors>,
-    /// For each of the second list the index of its nearest in the first.
+    /// For each descriptor of the second list, the index of its nearest in the first.
     pub(super) columns: Vec<usize>,
 }
 
 /// Neighbors in the second list of a piece of the first.
 pub(super) struct Scanned<D> {
-    /// Nearest index, its squared distance, that of the second nearest.
+    /// Index of the nearest, its squared distance, and that of the second nearest.
     pub(super) rows: Vec<(usize, D, D)>,
-    /// For each of the second list: squared distance and place in the piece.
+    /// For each descriptor of the second list, the squared distance and index of its nearest in the
+    /// piece.
     pub(super) columns: Vec<(D, usize)>,
 }

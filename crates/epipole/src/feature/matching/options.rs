@@ -1,9 +1,9 @@
-//! Choices of matching.
+//! Options of matching.
 
 use crate::{Error, Result};
 use derive_setters::Setters;
 
-/// Which nearest neighbors count as matches.
+/// Options of matching.
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -13,20 +13,20 @@ use derive_setters::Setters;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct MatchOptions {
-    /// The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves
-    /// the test out. Lowe 2004, §7.1.
+    /// Maximum ratio of the distances of the nearest and second nearest, in (0, 1]; `None` disables
+    /// the test. Lowe 2004, §7.1.
     pub max_ratio: Option<f32>,
     /// Require mutual nearest neighbors.
     pub mutual: bool,
-    /// The largest distance, ≥ 0; `None` for any.
+    /// Maximum distance, ≥ 0; `None` for any.
     pub max_distance: Option<f32>,
-    /// No feature of the second image in two matches: the closest stays. Mutual matches are
-    /// unique already.
+    /// Keep only the closest match of each feature of the second image. Mutual matches are unique
+    /// anyway.
     pub unique: bool,
 }
 
 impl Default for MatchOptions {
-    /// Ratio 0.8, mutual, any distance.
+    /// Returns ratio 0.8, mutual, any distance.
     fn default() -> Self {
         Self {
             max_ratio: Some(0.8),
@@ -37,7 +37,7 @@ impl Default for MatchOptions {
     }
 }
 
-/// Refuses options outside their range.
+/// Rejects options outside their range.
 pub(super) fn check(options: &MatchOptions) -> Result<()> {
     if let Some(ratio) = options.max_ratio.filter(|&r| !(r > 0.0 && r <= 1.0)) {
         return Err(Error::OutOfRange {

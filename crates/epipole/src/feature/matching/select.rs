@@ -1,24 +1,24 @@
-//! Tests of nearest neighbors, and the matches that pass them.
+//! Filters of nearest neighbors, and the resulting matches.
 
 use super::neighbors::Neighbors;
 use super::options::MatchOptions;
 
-/// A feature of the first image and the one of the second that it was matched with.
+/// A pair of matching features of two images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Match {
     /// Index in the first list.
     pub index1: usize,
     /// Index in the second list.
     pub index2: usize,
-    /// Euclidean distance of the descriptors, or the number of bits that differ.
+    /// Euclidean or Hamming distance of the descriptors.
     pub distance: f32,
-    /// This distance over that of the second nearest, in [0, 1]; 0 if there is no second, 1 if
-    /// both are 0.
+    /// Ratio of this distance to that of the second nearest, in [0, 1]; 0 if there is no second, 1
+    /// if both are 0.
     pub ratio: f32,
 }
 
 impl Match {
-    /// A match from elsewhere, whose descriptors are unknown: distance and ratio are 0.
+    /// Creates a match from another source, without descriptors: distance and ratio are 0.
     ///
     /// ```
     /// use epipole::feature::Match;
@@ -35,9 +35,9 @@ impl Match {
     }
 }
 
-/// The neighbors that pass all tests.
+/// Selects the neighbors that pass all tests.
 ///
-/// * `columns`: for each of the second list the index of its nearest in the first
+/// * `columns`: for each descriptor of the second list, the index of its nearest in the first
 pub(super) fn select(rows: &[Neighbors], columns: &[usize], options: &MatchOptions) -> Vec<Match> {
     let mut matches: Vec<Match> = rows
         .iter()
@@ -57,7 +57,7 @@ pub(super) fn select(rows: &[Neighbors], columns: &[usize], options: &MatchOptio
         .filter(|m| options.max_distance.is_none_or(|limit| m.distance <= limit))
         .collect();
     if options.unique && !options.mutual {
-        // The closest of each second index; of equally close ones the first.
+        // The closest for each second index; the first of equally close ones.
         let mut closest: Vec<Option<usize>> = vec![None; columns.len()];
         for (k, m) in matches.iter().enumerate() {
             let held = &mut closest[m.index2];

@@ -1,4 +1,4 @@
-//! FAST corners: nine neighbors in a row on a circle, all brighter or all darker.
+//! FAST corners: nine consecutive pixels on a circle, all brighter or all darker.
 
 use crate::Result;
 use crate::feature::Keypoint;
@@ -9,7 +9,7 @@ use image::GrayImage;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// The circle of radius 3, clockwise from above.
+/// Offsets of the circle of radius 3, clockwise from the top.
 const CIRCLE: [(isize, isize); 16] = [
     (0, -3),
     (1, -3),
@@ -29,7 +29,7 @@ const CIRCLE: [(isize, isize); 16] = [
     (-1, -3),
 ];
 
-/// The same as column and row of a block of seven by seven.
+/// The same as column and row of a 7×7 block.
 const CIRCLE_AT: [(usize, usize); 16] = {
     let mut places = [(0, 0); 16];
     let mut k = 0;
@@ -41,11 +41,11 @@ const CIRCLE_AT: [(usize, usize); 16] = {
     places
 };
 
-/// Neighbors in a row that make a corner.
+/// Number of consecutive pixels that make a corner.
 const ARC: usize = 9;
 
-/// The `limit` (≥ 1) strongest corners at least `margin` (≥ 5) pixels inside, in order, each the
-/// best of its 3×3 pixels, with the Harris measure as their response.
+/// Finds the `limit` (≥ 1) strongest corners at least `margin` (≥ 5) pixels inside, sorted, each
+/// the best of its 3×3 pixels, with the Harris measure as response.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -58,7 +58,7 @@ pub(super) fn corners(
 ) -> Result<Vec<Keypoint>> {
     let mut found = whole_corners(image, threshold, margin, reporter)?;
     if found.len() > limit {
-        // Those as strong as the last stay until their places, which order them, are refined.
+        // Keep ties with the last until their positions, which decide the order, are refined.
         let strength = |a: &Corner, b: &Corner| b.response.total_cmp(&a.response);
         let last = found.select_nth_unstable_by(limit - 1, strength).1.response;
         found.retain(|corner| corner.response.total_cmp(&last).is_ge());
@@ -69,14 +69,14 @@ pub(super) fn corners(
     Ok(found)
 }
 
-/// A corner at a whole pixel.
+/// A corner at an integer pixel.
 struct Corner {
     x: usize,
     y: usize,
     response: f32,
 }
 
-/// The corner at the peak of its and its neighbors' scores.
+/// Refines the corner to the peak of the scores around it.
 fn refined(image: &GrayImage, corner: &Corner) -> Keypoint {
     let width = image.width() as isize;
     let offsets = CIRCLE.map(|(x, y)| y * width + x);
@@ -88,7 +88,7 @@ fn refined(image: &GrayImage, corner: &Corner) -> Keypoint {
     Keypoint::at(u, v, corner.response)
 }
 
-/// The corners in reading order.
+/// Finds the corners in reading order.
 fn whole_corners(
     image: &GrayImage,
     threshold: u8,
@@ -100,7 +100,7 @@ fn whole_corners(
         return Ok(Vec::new());
     }
     let values = image.as_raw();
-    // Scores of three rows; 0 is no corner.
+    // Scores of three rows; 0 for no corner.
     let mut scores = [vec![0u8; width], vec![0u8; width], vec![0u8; width]];
     let mut found = Vec::new();
     for y in margin - 1..height - margin + 1 {
@@ -119,7 +119,7 @@ fn whole_corners(
             }
             for (i, &here) in scores.iter().enumerate().filter(|(_, score)| **score > 0) {
                 let x = margin + block * LANES + i;
-                // Equal scores are common: Harris' measure decides, then reading order.
+                // Ties of scores are common: the Harris measure decides, then reading order.
                 let (mut beaten, mut equal) = (false, [false; 9]);
                 for k in (0..9).filter(|&k| k != 4) {
                     let other = rows[k / 3][x + k % 3 - 1];
@@ -147,7 +147,7 @@ fn whole_corners(
     Ok(found)
 }
 
-/// Peak of the parabola through three values, within half a sample of the middle one.
+/// Returns the peak of the parabola through three values, within half a sample of the middle.
 fn vertex(before: f64, middle: f64, after: f64) -> f64 {
     let curvature = before - 2.0 * middle + after;
     if curvature < 0.0 {
@@ -157,11 +157,12 @@ fn vertex(before: f64, middle: f64, after: f64) -> f64 {
     }
 }
 
-/// Pixels whose scores are computed at once.
+/// Number of pixels whose scores are computed at once.
 const LANES: usize = 32;
 
 dispatched! {
-    /// The scores of some columns of the middle one of seven rows; 0 unless above the threshold.
+    /// Computes the scores of some columns of the middle of seven rows; 0 unless above the
+    /// threshold.
     fn score_row(
         rows: &[u8],
         width: usize,
@@ -192,7 +193,7 @@ fn pixels<const L: usize>(rows: &[u8], from: usize) -> &[u8; L] {
         .expect("the slice has this length")
 }
 
-/// Pixels of the circle around some of the middle row.
+/// Returns the pixels at one position of the circle for part of the middle row.
 #[inline(always)]
 fn ring<const L: usize>(rows: &[u8], width: usize, x: usize, k: usize) -> &[u8; L] {
     let (u, v) = CIRCLE_AT[k];
@@ -202,7 +203,7 @@ fn ring<const L: usize>(rows: &[u8], width: usize, x: usize, k: usize) -> &[u8; 
 #[inline(always)]
 fn score_block<const L: usize>(rows: &[u8], width: usize, threshold: u8, x: usize) -> [u8; L] {
     let center = pixels::<L>(rows, 3 * width + x);
-    // Two neighboring ones of the four compass points are in every arc of nine.
+    // Every arc of nine contains two adjacent ones of the four compass points.
     let (north, south) = (ring::<L>(rows, width, x, 0), ring::<L>(rows, width, x, 8));
     let (east, west) = (ring::<L>(rows, width, x, 4), ring::<L>(rows, width, x, 12));
     let mut any = 0;
@@ -216,7 +217,7 @@ fn score_block<const L: usize>(rows: &[u8], width: usize, threshold: u8, x: usiz
     if any == 0 {
         return [0; L];
     }
-    // Excess and deficit in brightness of each pixel of the circle over the center, at least 0.
+    // Brightness above and below the center for each pixel of the circle, at least 0.
     let (mut bright, mut dark) = ([[0u8; L]; 16], [[0u8; L]; 16]);
     for k in 0..16 {
         let ring = ring::<L>(rows, width, x, k);
@@ -234,7 +235,7 @@ fn score_block<const L: usize>(rows: &[u8], width: usize, threshold: u8, x: usiz
     scores
 }
 
-/// Raises each score to the least of the best nine in a row.
+/// Raises each score to the maximum over all arcs of nine of the minimum in the arc.
 #[inline(always)]
 fn best_arcs<const L: usize>(ring: &[[u8; L]; 16], scores: &mut [u8; L]) {
     let mut three = [[0u8; L]; 16];
@@ -252,13 +253,13 @@ fn best_arcs<const L: usize>(ring: &[[u8; L]; 16], scores: &mut [u8; L]) {
     }
 }
 
-/// The largest threshold for which the pixel is still a corner; negative if it is none at any.
+/// Returns the maximum threshold for which the pixel is a corner; negative if there is none.
 fn score(values: &[u8], center: usize, offsets: &[isize; 16]) -> i16 {
     let middle = i16::from(values[center]);
     let ring: [i16; 16] =
         offsets.map(|offset| i16::from(values[(center as isize + offset) as usize]) - middle);
     let (mut bright, mut dark) = (i16::MIN, i16::MIN);
-    // The least of nine in a row, from the least of three and of three times three.
+    // The minimum of nine in a row, from minima of three and of three times three.
     let three = |f: fn(i16, i16) -> i16| -> [i16; 16] {
         std::array::from_fn(|k| f(f(ring[k], ring[(k + 1) % 16]), ring[(k + 2) % 16]))
     };
@@ -272,10 +273,10 @@ fn score(values: &[u8], center: usize, offsets: &[isize; 16]) -> i16 {
 }
 
 dispatched! {
-    /// Harris' measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
+    /// Computes the Harris measure with k = 0.04 over 7×7 pixels, on gray values in [0, 1].
     fn harris(values: &[u8], width: usize, x: usize, y: usize) -> f32 {
-        // Sums by column, of which the eighth is left out at the end: vectors have eight numbers.
-        // Each product is at most 1020², and 49 of them do not overflow.
+        // Sums by column; the eighth is dropped at the end, as vectors have eight numbers. Each
+        // product is at most 1020², and 49 of them do not overflow.
         let (mut a, mut b, mut c) = ([0i32; 8], [0i32; 8], [0i32; 8]);
         let ten = |row: usize| pixels::<10>(values, row * width + x - 4).map(i16::from);
         let mut nine_rows = [[0i16; 10]; 9];
@@ -294,7 +295,7 @@ dispatched! {
                 c[k] += dv * dv;
             }
         }
-        // Sobel's gain of 8 and the 49 pixels are divided out.
+        // Divides by Sobel's gain of 8 and the 49 pixels.
         let scale = 1.0 / (255.0 * 255.0 * 64.0 * 49.0);
         let [a, b, c] = [a, b, c].map(|sums| f64::from(sums[..7].iter().sum::<i32>()) * scale);
         (a * c - b * b - 0.04 * (a + c) * (a + c)) as f32
@@ -331,7 +332,7 @@ mod tests {
             }
         }
         assert_eq!(all, list("fast_all.npy"));
-        // OpenCV drops both of two equal neighbors, we keep one.
+        // OpenCV drops both of two equal neighbors; this code keeps one.
         let canceled = AtomicBool::new(false);
         let mut reporter = Reporter::of_other(Stage::FeatureDetection, &canceled);
         let ours: Vec<(usize, usize)> = corners(&image, 15, 5, usize::MAX, &mut reporter)

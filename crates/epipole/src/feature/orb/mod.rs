@@ -1,4 +1,4 @@
-//! A binary descriptor for live video: oriented FAST corners in a pyramid, 256 comparisons.
+//! ORB: oriented FAST corners in a pyramid, with binary descriptors of 256 comparisons.
 
 mod fast;
 mod pattern;
@@ -14,7 +14,7 @@ use image::GrayImage;
 use pattern::{Pattern, RADIUS};
 use std::sync::{Mutex, PoisonError};
 
-/// Pixels along a level's edge without corners: the descriptor's disc must fit.
+/// Width of a level's border without corners, pixels: the descriptor's disc must fit.
 const MARGIN: u32 = RADIUS as u32 + 2;
 
 /// Options of [`detect_orb`].
@@ -31,16 +31,16 @@ pub struct OrbOptions {
     pub max_features: usize,
     /// Ratio of the sizes of successive levels, above 1 and at most 2.
     pub scale_factor: f64,
-    /// Levels of the pyramid, 1 to 16.
+    /// Number of levels of the pyramid, 1 to 16.
     pub num_levels: usize,
-    /// Minimum contrast of nine neighbors in a row, for gray values in [0, 1].
+    /// Minimum contrast of nine consecutive pixels, for gray values in [0, 1].
     pub fast_threshold: f32,
-    /// Take every direction to be 0: for cameras held upright.
+    /// Assume direction 0, for upright cameras.
     pub upright: bool,
 }
 
 impl Default for OrbOptions {
-    /// 1000 features, 8 levels a factor 1.2 apart, threshold 20 of 255.
+    /// Returns 1000 features, 8 levels with ratio 1.2, threshold 20 of 255.
     fn default() -> Self {
         Self {
             max_features: 1000,
@@ -52,17 +52,17 @@ impl Default for OrbOptions {
     }
 }
 
-/// The oriented FAST corners of an image, strongest first, each with 256 comparisons of blurred
-/// gray values around it.
+/// Detects the oriented FAST corners of an image, strongest first, each with 256 comparisons of
+/// blurred gray values around it.
 ///
-/// Corners are found at several sizes of the image, ranked by Harris' measure, located between
-/// pixels by a parabola through their scores. The direction points from the corner to the
-/// brightness centroid of the disc around it. `scale_px` is the size of the level relative to the
-/// image, `octave` its number. An image smaller than 35×35 pixels has no features.
+/// Corners are found at several sizes of the image, ranked by the Harris measure, and refined by a
+/// parabola through their scores. The direction points from the corner to the intensity centroid of
+/// the disc around it. `scale_px` is the size of the level relative to the image, `octave` its
+/// number. An image smaller than 35×35 pixels has no features.
 ///
 /// # Errors
-/// [`Error::NotFinite`] for a bad pixel, [`Error::OutOfRange`] for an option outside its range,
-/// [`Error::Canceled`].
+/// [`Error::NotFinite`] for an invalid pixel, [`Error::OutOfRange`] for an option outside its
+/// range, [`Error::Canceled`].
 ///
 /// Source: Rublee, Rabaud, Konolige & Bradski 2011, "ORB: an efficient alternative to SIFT or
 /// SURF"; Rosten & Drummond 2006 for FAST; Calonder et al. 2010 for the comparisons.
@@ -88,7 +88,7 @@ pub fn detect_orb(
     require_finite(image)?;
     let levels: Vec<usize> = (0..options.num_levels).collect();
     let pattern = Pattern::new();
-    // Each level gets a share in proportion to its side.
+    // The number of features per level is proportional to its side.
     let shrink = 1.0 / options.scale_factor;
     let total: f64 = levels.iter().map(|&k| power(shrink, k)).sum();
     let describe = |k: usize, reporter: &mut Reporter| {
@@ -102,7 +102,7 @@ pub fn detect_orb(
     monitored::for_each(levels.len(), stage, monitor, &|level, reporter| {
         let described = describe(level, reporter);
         let canceled = described == Err(Error::Canceled);
-        // Never waits: each level is locked once.
+        // Never blocks: each level is locked once.
         if let Ok(mut found) = found[level].lock() {
             *found = described;
         }
@@ -178,7 +178,7 @@ fn describe_level(
         .collect())
 }
 
-/// The direction from a pixel to the brightness centroid of the disc around it.
+/// Returns the direction from a pixel to the intensity centroid of the disc around it.
 fn direction(image: &GrayImage, x: usize, y: usize) -> f32 {
     let width = image.width() as usize;
     let r = RADIUS as isize;

@@ -1,13 +1,13 @@
-//! The pairs of places that a binary descriptor compares.
+//! The pairs of positions that a binary descriptor compares.
 
 use crate::math::random::Random;
 use crate::math::simd::dispatched;
 use image::GrayImage;
 
-/// All places lie in a disc of this radius, pixels.
+/// Radius of the disc that contains all positions, pixels.
 pub(super) const RADIUS: usize = 15;
 
-/// Places that are compared: 256 pairs.
+/// Number of positions: 256 pairs.
 const PLACES: usize = 512;
 
 /// Offsets from the keypoint; those of pair k are at 2k and 2k + 1.
@@ -17,8 +17,8 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    /// Places drawn from a Gaussian of a fifth of the disc's diameter, the best of the layouts
-    /// that Calonder et al. 2010 compare (§3.2, their G II); the seed is fixed for good.
+    /// Draws positions from a Gaussian with a fifth of the disc's diameter as standard deviation,
+    /// the best layout in Calonder et al. 2010 (§3.2, their G II); the seed must never change.
     pub(super) fn new() -> Self {
         let mut random = Random::new(0x0e91_901e);
         let mut place = || loop {
@@ -38,8 +38,8 @@ impl Pattern {
         pattern
     }
 
-    /// Bit k says whether the first place of pair k is darker than the second, the pattern turned
-    /// by the keypoint's angle.
+    /// Compares the pairs of the pattern, rotated by the keypoint's angle: bit k is set if the
+    /// first position of pair k is darker than the second.
     pub(super) fn compare(
         &self,
         image: &GrayImage,
@@ -62,7 +62,8 @@ impl Pattern {
 }
 
 dispatched! {
-    /// The pixels of the turned pattern in an image of some width, counted from the keypoint's.
+    /// Computes the pixel offsets of the rotated pattern from the keypoint, for an image of some
+    /// width.
     fn turned(pattern: &Pattern, sin: f32, cos: f32, width: i32, offsets: &mut [i32; PLACES]) {
         for k in 0..PLACES {
             let (a, b) = (pattern.u[k], pattern.v[k]);
@@ -73,11 +74,11 @@ dispatched! {
     }
 }
 
-/// Added to a float of small size, it leaves the nearest whole number in the lowest bits.
+/// Constant that, added to a small float, puts the nearest integer into the lowest bits.
 const WHOLE: f32 = 12_582_912.0;
 
-/// `f32::round` of a small number: the nearest whole one, halves away from zero. Unlike `as`, which
-/// saturates, it runs in vectors.
+/// Rounds a small number as `f32::round`: to the nearest integer, halves away from zero. Unlike
+/// `as`, which saturates, it vectorizes.
 #[inline(always)]
 fn nearest(x: f32) -> i32 {
     let shifted = x + WHOLE;

@@ -1,4 +1,4 @@
-//! Directions and descriptors at places that were not detected but are given.
+//! SIFT directions and descriptors at given positions.
 
 use super::descriptor::Samples;
 use super::options::{SiftOptions, check};
@@ -10,18 +10,18 @@ use crate::math::order::order_by;
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::{Error, Result};
 
-/// SIFT descriptors at given places, scales and directions, one for each keypoint, as
-/// [`detect_sift`](super::detect_sift) computes at its keypoints.
+/// Computes SIFT descriptors at given positions, scales and directions, one per keypoint, as
+/// [`detect_sift`](super::detect_sift) does at its keypoints.
 ///
-/// * `keypoints`: `u`, `v`, `scale_px` (> 0) and `angle_rad` count. If two octaves hold layers of
+/// * `keypoints`: with `u`, `v`, `scale_px` (> 0) and `angle_rad`. If two octaves contain layers of
 ///   this blur, `octave` selects one; a blur beyond all layers takes the nearest layer.
 ///
-/// There is no gradient outside the image, so a place far outside gives zeros. An image too small
-/// for an octave gives zeros everywhere. The one stage is [`Stage::FeatureDetection`].
+/// There is no gradient outside the image, so a position far outside gives zeros. An image too
+/// small for an octave gives zeros everywhere. The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for an option or a scale outside its range, [`Error::NotFinite`] for a bad
-/// pixel or place, [`Error::Canceled`].
+/// [`Error::OutOfRange`] for an option or a scale outside its range, [`Error::NotFinite`] for an
+/// invalid pixel or position, [`Error::Canceled`].
 ///
 /// Source: Lowe 2004, "Distinctive image features from scale-invariant keypoints", §6.
 ///
@@ -29,7 +29,7 @@ use crate::{Error, Result};
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{Keypoint, SiftOptions, describe_sift};
 /// use epipole::imaging::GrayImage32;
-/// // Brighter to the right: all gradients point along the rows, into the first of eight directions.
+/// // Brighter to the right: all gradients are along the rows, in the first of eight directions.
 /// let ramp = GrayImage32::from_fn(64, 64, |u, _| image::Luma([u as f32 / 64.0]));
 /// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
 /// let options = SiftOptions::default();
@@ -60,11 +60,11 @@ pub fn describe_sift(
     Descriptors::from_bytes(128, bytes)
 }
 
-/// The dominant gradient directions around given places, strongest first, in (−π, π], from which
-/// [`detect_sift`](super::detect_sift) makes features. At most `options.max_orientations` each.
+/// Computes the dominant gradient directions around given positions, strongest first, in (−π, π],
+/// as used by [`detect_sift`](super::detect_sift). At most `options.max_orientations` each.
 ///
 /// Arguments, errors and the border are as for [`describe_sift`]; without any gradient the
-/// direction is 0. The one stage is [`Stage::FeatureDetection`].
+/// direction is 0. The only stage is [`Stage::FeatureDetection`].
 ///
 /// Source: Lowe 2004, §5.
 ///
@@ -97,11 +97,11 @@ pub fn sift_directions(
     Ok(found)
 }
 
-/// The histograms whose peaks are [`sift_directions`], one for each place: 36 sums of gradients,
-/// smoothed. Bin k is at an angle of `k · 10° − 180°`.
+/// Computes the histograms whose peaks are [`sift_directions`], one per position: 36 sums of
+/// gradients, smoothed. Bin k is at an angle of `k · 10° − 180°`.
 ///
-/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient all sums
-/// are 0. The one stage is [`Stage::FeatureDetection`].
+/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient all sums are
+/// 0. The only stage is [`Stage::FeatureDetection`].
 ///
 /// Source: Lowe 2004, §5.
 ///
@@ -112,7 +112,7 @@ pub fn sift_directions(
 /// let ramp = GrayImage32::from_fn(64, 64, |_, v| image::Luma([v as f32 / 64.0]));
 /// let middle = Keypoint { scale_px: 3.0, ..Keypoint::at(32.0, 32.0, 1.0) };
 /// let found = sift_orientation_histograms(&ramp, &[middle], &SiftOptions::default(), &mut ())?;
-/// // All gradients point down, at 90°: 27 · 10° − 180°. Smoothing takes them to both sides.
+/// // All gradients point down, at 90°: 27 · 10° − 180°. Smoothing spreads them to both sides.
 /// let [before, at, after] = [26, 27, 28].map(|bin: usize| found[0][bin]);
 /// assert!(at > before && (before - after).abs() < 0.01 * at && found[0][9] == 0.0);
 /// # Ok(()) }
@@ -136,8 +136,8 @@ pub fn sift_orientation_histograms(
     Ok(found)
 }
 
-/// Visits each keypoint with the layer of its blur: index, layer, and place and blur in samples of
-/// the layer.
+/// Visits each keypoint with the layer of its blur: passes index, layer, and position and blur in
+/// samples of the layer.
 fn at_layers(
     image: &GrayImage32,
     keypoints: &[Keypoint],
@@ -178,7 +178,7 @@ fn at_layers(
     let mut next = OctaveGrid::first(image, options, first)?;
     while let Some(grid) = next.filter(|_| waiting.peek().is_some()) {
         let mut octave = Octave::new(grid, memory, options);
-        // Blurs stand still between the shares of keypoints.
+        // Computing blurs does not advance the progress, which counts keypoints.
         let share = visited as f32 / count;
         let blur = &mut Part::new(monitor, share, share).of_stage(stage);
         octave.advance_to(1, blur)?;
@@ -186,7 +186,7 @@ fn at_layers(
         let (number, is_last) = (octave.grid().octave, next.is_none());
         let is_here = |home: &(i32, usize, usize)| home.0 == number || is_last;
         while let Some((of, layer, index)) = waiting.next_if(is_here) {
-            // Octaves beyond the last have larger blurs than any layer of it.
+            // Octaves beyond the last have larger blurs than any of its layers.
             let largest = options.layers_per_octave + 1;
             let layer = if of > number { largest } else { layer };
             let share = visited as f32 / count;
@@ -205,7 +205,7 @@ fn at_layers(
     Ok(())
 }
 
-/// The octave and the layer of a keypoint's blur.
+/// Returns the octave and the layer of a keypoint's blur.
 fn home(keypoint: &Keypoint, options: &SiftOptions) -> (i32, usize) {
     let first = if options.upsample { -1 } else { 0 };
     let n = options.layers_per_octave as f64;
@@ -215,7 +215,7 @@ fn home(keypoint: &Keypoint, options: &SiftOptions) -> (i32, usize) {
     if keypoint.octave >= first && (0.0..=n + 1.0).contains(&named) {
         return (keypoint.octave, named as usize);
     }
-    // Layers 1 to n are those in which extrema are looked for.
+    // Layers 1 to n are searched for extrema.
     let octave = (libm::floor(octaves - 0.5 / n) as i32).max(first);
     (octave, layer(octave).clamp(0.0, n + 1.0) as usize)
 }
@@ -246,8 +246,8 @@ mod tests {
         }
     }
 
-    /// OpenCV and scikit-image weigh and share the gradients of the same layers in the same way,
-    /// but OpenCV cuts the window at a rounded radius, and scikit-image rounds to whole numbers.
+    /// OpenCV and scikit-image weight and interpolate the gradients of the same layers equally, but
+    /// OpenCV crops the window at a rounded radius, and scikit-image rounds to integers.
     #[test]
     fn descriptors_equal_those_of_opencv_and_scikit_image() {
         let image = gray_to_f32(&fixture::gray8("sift_image.npy"));

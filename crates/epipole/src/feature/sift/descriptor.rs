@@ -6,20 +6,20 @@ use crate::imaging::approx::{atan2, exp_negative};
 use crate::math::simd::dispatched;
 use std::f32::consts::TAU;
 
-/// Cells along a side of the descriptor.
+/// Number of cells along a side of the descriptor.
 const CELLS: usize = 4;
-/// Directions in a cell.
+/// Number of directions per cell.
 const BINS: usize = 8;
-/// Numbers in a row of cells with its margin, and in all rows.
+/// Number of sums in a row of cells with its margin, and in all rows.
 const STRIDE: usize = (CELLS + 2) * BINS;
 const NUM_SUMS: usize = (CELLS + 2) * STRIDE;
-/// A cell's side in units of the keypoint's blur.
+/// Side of a cell in units of the keypoint's blur.
 const CELL_SIGMAS: f32 = 3.0;
 
-/// Sums of weighted gradients in 4×4 cells of 8 directions, in the keypoint's own frame.
+/// Computes sums of weighted gradients in 4×4 cells of 8 directions, in the keypoint's frame.
 ///
-/// Each gradient is shared by the neighboring cells and directions (trilinear), and weighs less
-/// away from the middle: a Gaussian whose standard deviation is two cells.
+/// Each gradient is distributed to the neighboring cells and directions (trilinear), and weighted
+/// by a Gaussian whose standard deviation is two cells.
 ///
 /// Source: Lowe 2004, §6.1.
 pub(super) fn histogram(
@@ -29,7 +29,7 @@ pub(super) fn histogram(
     angle_rad: f32,
     scratch: &mut Samples,
 ) -> [f32; 128] {
-    // One cell of margin all around receives the outward shares.
+    // A margin of one cell receives the outward contributions.
     let mut sums = Aligned([0.0f32; NUM_SUMS]);
     let cell = CELL_SIGMAS * sigma;
     let (cos, sin) = (libm::cosf(angle_rad) / cell, libm::sinf(angle_rad) / cell);
@@ -62,7 +62,7 @@ pub(super) fn histogram(
     out
 }
 
-/// 512 times the normalized sums, cut at 255.
+/// Returns 512 times the normalized sums, clipped at 255.
 pub(super) fn normalize(mut sums: [f32; 128], kind: SiftNormalization) -> [u8; 128] {
     match kind {
         SiftNormalization::L2 => {
@@ -87,7 +87,7 @@ fn length(sums: &[f32; 128]) -> f32 {
     lanes_sum(sums, |v| v * v).sqrt()
 }
 
-/// A sum in eight lanes, the same order everywhere.
+/// Sums in eight lanes, in a fixed order on every platform.
 fn lanes_sum(values: &[f32; 128], f: impl Fn(f32) -> f32) -> f32 {
     let mut lanes = [0.0f32; 8];
     for chunk in values.as_chunks::<8>().0 {
@@ -98,33 +98,33 @@ fn lanes_sum(values: &[f32; 128], f: impl Fn(f32) -> f32) -> f32 {
     lanes.iter().sum()
 }
 
-/// The samples of a layer around a place: gradients and values derived from them. Lists are filled
-/// first and processed as a whole, so that the loops vectorize.
+/// Samples of a layer around a position: gradients and derived values. Lists are filled first and
+/// processed as a whole, so that the loops vectorize.
 #[derive(Default)]
 pub(super) struct Samples {
-    /// Twice the derivatives.
+    /// Twice the derivative along u.
     du: Vec<f32>,
     dv: Vec<f32>,
-    /// Offsets from the place.
+    /// Offset from the position along u.
     dx: Vec<f32>,
     dy: Vec<f32>,
-    /// Magnitude times falloff.
+    /// Gradient magnitude times falloff.
     pub(super) weight: Vec<f32>,
-    /// Direction in [−π, π].
+    /// Gradient direction in [−π, π].
     pub(super) angle: Vec<f32>,
-    /// Index into the sums of the first cell that a sample contributes to, and the fractions that
-    /// go to the next cell along u and v.
+    /// Index into the sums of the first cell that a sample contributes to; then the fractions for
+    /// the next cell along u and v.
     cell: Vec<u32>,
     right: Vec<f32>,
     down: Vec<f32>,
-    /// The first of the two directions, and the fraction that goes to the next.
+    /// First of the two directions; then the fraction for the next.
     bin: Vec<u32>,
     ahead: Vec<f32>,
 }
 
 impl Samples {
-    /// Takes the samples of each row whose offset along u lies in the interval for the row's
-    /// offset along v. Those on the layer's edge have no gradient and are left out.
+    /// Collects the samples of each row whose offset along u lies in the interval for the row's
+    /// offset along v. Samples on the layer's border have no gradient and are left out.
     pub(super) fn gather(
         &mut self,
         layer: &GrayImage32,
@@ -160,7 +160,7 @@ impl Samples {
         }
     }
 
-    /// Direction and weighted magnitude of each gradient.
+    /// Computes direction and weighted magnitude of each gradient.
     pub(super) fn polar(&mut self, falloff: f32) {
         let n = self.dx.len();
         self.weight.resize(n, 0.0);
@@ -169,7 +169,7 @@ impl Samples {
         polar(gradients, falloff, &mut self.weight, &mut self.angle);
     }
 
-    /// Cells and directions that share each sample.
+    /// Computes the cells and directions of each sample.
     fn place(&mut self, cos: f32, sin: f32, angle_rad: f32) {
         let n = self.dx.len();
         for list in [&mut self.right, &mut self.down, &mut self.ahead] {
@@ -195,7 +195,7 @@ impl Samples {
     }
 }
 
-/// Cells that do not straddle lines of the cache.
+/// Alignment that keeps cells within cache lines.
 #[repr(align(32))]
 struct Aligned<T>(T);
 
@@ -210,8 +210,8 @@ static ONE_OF: Aligned<[[f32; BINS]; BINS]> = {
     Aligned(table)
 };
 
-/// Splits x in [0, 8] into integer and fraction. An integer x may come as x − 1 and 1, which
-/// distributes a sample in the same way. Adding 1.5 · 2²³ rounds without a call.
+/// Splits x in [0, 8] into integer and fraction. An integer x may become x − 1 and 1, which
+/// distributes a sample in the same way. Adding 1.5 · 2²³ rounds without a function call.
 #[inline(always)]
 fn whole_and_rest(x: f32) -> (u32, f32) {
     const ROUND: f32 = 12_582_912.0;
@@ -242,12 +242,13 @@ dispatched! {
         let [right, down] = shares;
         let (dy, cell) = (&dy[..n], &mut cell[..n]);
         let (right, down) = (&mut right[..n], &mut down[..n]);
-        // The middle of the four cells is between the second and the third, one cell of margin.
+        // The middle of the four cells is between the second and the third, plus one cell of
+        // margin.
         let middle = 0.5 * (CELLS as f32 - 1.0) + 1.0;
         for k in 0..n {
             let (column, fc) = whole_and_rest(dx[k] * cos + (dy[k] * sin + middle));
             let (row, fr) = whole_and_rest((dy[k] * cos + middle) - dx[k] * sin);
-            // Rounding at the square's edge may reach one cell too far.
+            // Rounding at the border of the square may reach one cell too far.
             let (column, row) = (column.min(CELLS as u32), row.min(CELLS as u32));
             cell[k] = row * STRIDE as u32 + column * BINS as u32;
             right[k] = fc;
@@ -267,7 +268,7 @@ dispatched! {
     }
 }
 dispatched! {
-    /// Adds each sample to its four cells: all directions of a cell at once, most of them by 0.
+    /// Adds each sample to its four cells: all directions of a cell at once, most of them with 0.
     fn scatter(
         weight: &[f32], cell: &[u32], bin: &[u32], shares: [&[f32]; 3], sums: &mut [f32; NUM_SUMS],
     ) {

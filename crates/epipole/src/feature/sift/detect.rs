@@ -1,4 +1,4 @@
-//! Detection: from an image to its strongest features.
+//! SIFT detection: the strongest features of an image.
 
 use super::descriptor::{self, Samples};
 use super::extrema::{self, Extremum};
@@ -14,19 +14,19 @@ use crate::math::order::{at_rank, order_by};
 use crate::math::parallel;
 use crate::progress::{self, Monitor, Part, Stage};
 
-/// The SIFT features of an image, strongest first: extrema of differences of Gaussians in place
-/// and scale, located to a fraction of a pixel, with directions and 4×4×8 histograms of gradients.
+/// Detects the SIFT features of an image, strongest first: extrema of differences of Gaussians in
+/// position and scale, with sub-pixel accuracy, with directions and 4×4×8 gradient histograms.
 ///
-/// The image is doubled and halved symmetrically about its middle, so a mirrored or half-turned
-/// image gives the mirrored or turned keypoints. Descriptors hold bytes: 512 times a unit vector,
-/// cut at 255. The angle of a keypoint is `atan2(Iᵥ, Iᵤ)` with v down; `scale_px` is the standard
-/// deviation of the blur; `octave` is −1 at twice the image's size.
+/// The image is doubled and halved symmetrically about its middle, so a mirrored image, or one
+/// rotated by 180°, gives the mirrored or rotated keypoints. Descriptors hold bytes: 512 times a
+/// unit vector, clipped at 255. The angle of a keypoint is `atan2(Iᵥ, Iᵤ)` with v down; `scale_px`
+/// is the standard deviation of the blur; `octave` is −1 at twice the image's size.
 ///
-/// An image that is flat, or smaller than about a dozen pixels, has no features. The one stage is
+/// A flat image, or one smaller than about a dozen pixels, has no features. The only stage is
 /// [`Stage::FeatureDetection`].
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) for a bad pixel,
+/// [`Error::NotFinite`](crate::Error::NotFinite) for an invalid pixel,
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option outside its range,
 /// [`Error::Canceled`](crate::Error::Canceled).
 ///
@@ -36,7 +36,7 @@ use crate::progress::{self, Monitor, Part, Stage};
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::feature::{SiftOptions, detect_sift};
 /// use epipole::imaging::GrayImage32;
-/// // One blob of standard deviation 4: its difference of Gaussians peaks at its center.
+/// // A blob of standard deviation 4: its difference of Gaussians peaks at its center.
 /// let blob = GrayImage32::from_fn(65, 65, |u, v| {
 ///     let (x, y) = (u as f32 - 32.0, v as f32 - 30.0);
 ///     image::Luma([1.0 / (1.0 + (x * x + y * y) / 60.0)])
@@ -96,7 +96,7 @@ pub fn detect_sift(
 /// Number of extrema described between two reports.
 const DESCRIBED_AT_ONCE: usize = 512;
 
-/// The features at one extremum: one for each of its directions.
+/// Returns the features at an extremum, one per direction.
 fn describe(
     octave: &Octave,
     extremum: &Extremum,
@@ -128,11 +128,10 @@ fn describe(
         .collect()
 }
 
-/// Bound on the weakest feature that can still be among those returned, so that weaker
-/// ones need no descriptor.
+/// Lower bound on the response of the returned features, so that weaker ones need no descriptor.
 struct Strongest {
     limit: usize,
-    /// The strongest, negative: so the strongest is the least.
+    /// Negated strongest responses, so that the strongest is the smallest.
     responses: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Extrema of the differences of Gaussians, to a fraction of a sample.
+//! Extrema of the differences of Gaussians, with sub-sample accuracy.
 
 use super::options::SiftOptions;
 use super::scale_space::{MARGIN, Octave};
@@ -8,7 +8,7 @@ use crate::math::{monitored, parallel};
 use crate::progress::{Monitor, Stage};
 use nalgebra::{Matrix3, Vector3};
 
-/// Steps after which a search that still moves is given up.
+/// Maximum number of steps of a search.
 const MAX_MOVES: usize = 5;
 
 /// An extremum of the scale space, in samples of its octave.
@@ -16,14 +16,14 @@ const MAX_MOVES: usize = 5;
 pub(super) struct Extremum {
     pub(super) x: f32,
     pub(super) y: f32,
-    /// Blur at which it lies.
+    /// Blur of the extremum.
     pub(super) sigma: f32,
-    /// The layer whose gradients describe it.
+    /// Layer whose gradients describe the extremum.
     pub(super) layer: usize,
     pub(super) response: f32,
 }
 
-/// All extrema of one layer of differences, in reading order.
+/// Finds all extrema of one layer of differences, in reading order.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -39,7 +39,7 @@ pub(super) fn find(
         find_in_rows(octave, layer, options, rows.clone())
     })?;
     let mut extrema: Vec<Extremum> = found.into_iter().flatten().collect();
-    // Two equal neighbors may both lead to one place.
+    // Two equal neighbors may both lead to the same position.
     extrema.dedup();
     Ok(extrema)
 }
@@ -52,7 +52,7 @@ fn find_in_rows(
 ) -> Vec<Extremum> {
     let differences = Differences::new(octave, layer);
     let width = differences.width;
-    // An extremum between samples may exceed its largest sample, not by twice.
+    // An extremum between samples may exceed the largest sample, but not twofold.
     let threshold = 0.5 * options.contrast_threshold / options.layers_per_octave as f32;
     let mut ring: [Vec<f32>; 3] = std::array::from_fn(|_| vec![0.0; width]);
     let mut flags = vec![0u8; width - 2];
@@ -109,7 +109,7 @@ dispatched! {
     }
 }
 
-/// The three layers of differences around one, computed from the Gaussian layers where asked.
+/// Three consecutive layers of differences, computed on demand from the Gaussian layers.
 struct Differences<'a> {
     gaussians: [&'a [f32]; 4],
     width: usize,
@@ -126,7 +126,7 @@ impl<'a> Differences<'a> {
         }
     }
 
-    /// A row of the middle layer.
+    /// Computes a row of the middle layer.
     fn row(&self, y: usize, out: &mut [f32]) {
         let range = y * self.width..(y + 1) * self.width;
         let (lower, upper) = (&self.gaussians[1][range.clone()], &self.gaussians[2][range]);
@@ -141,7 +141,7 @@ impl<'a> Differences<'a> {
         self.gaussians[layer + 1][k] - self.gaussians[layer][k]
     }
 
-    /// Whether no sample of the two layers beside exceeds `value`.
+    /// Returns whether no sample of the two adjacent layers exceeds `value`.
     fn is_extreme_across(&self, x: usize, y: usize, value: f32) -> bool {
         let neighbors = |layer: usize, row: usize| {
             let from = row * self.width + x - 1;
@@ -169,7 +169,7 @@ impl<'a> Differences<'a> {
     }
 }
 
-/// Fits a quadratic around a sample and walks to its extremum; `None` if there is none nearby, if
+/// Fits a quadratic around a sample and moves to its extremum; `None` if there is none nearby, if
 /// it is weak, or if it lies on an edge.
 ///
 /// Source: Brown & Lowe 2002, "Invariant features from interest point groups", eq. 3; Lowe 2004,
@@ -202,7 +202,7 @@ fn locate(
         if !offset.iter().all(|o| o.is_finite()) {
             return None;
         }
-        // Only place is walked: a neighbor in scale would have been found in its own layer.
+        // Move only in position: a neighbor in scale would have been found in its own layer.
         if offset.x.abs() > 0.6 || offset.y.abs() > 0.6 {
             let toward = |k: usize, o: f64| {
                 let step = if o > 0.6 {
@@ -239,7 +239,7 @@ fn locate(
             x: (x as f64 + offset.x) as f32,
             y: (y as f64 + offset.y) as f32,
             sigma: octave.sigma_at(layer as f64 + offset.z) as f32,
-            // Within one layer of the middle one, so among those in memory.
+            // Within one layer of the middle one, so still in memory.
             layer: (layer as f64 + offset.z.round()) as usize,
             response,
         });

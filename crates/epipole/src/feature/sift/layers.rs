@@ -1,4 +1,4 @@
-//! The whole scale space, for inspection.
+//! The complete scale space, for inspection.
 
 use super::options::{SiftOptions, check};
 use super::scale_space::{Octave, OctaveGrid};
@@ -7,36 +7,35 @@ use crate::imaging::{Border, GrayImage32, from_vec, require_finite, sample_bilin
 use crate::math::monitored;
 use crate::progress::{Monitor, Part, Stage};
 
-/// An image blurred more and more, and the differences of neighboring blurs, in which
-/// [`detect_sift`](super::detect_sift) looks for extrema.
+/// Increasingly blurred images, and the differences of successive blurs, in which
+/// [`detect_sift`](super::detect_sift) finds extrema.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScaleSpace {
     /// Octaves, each with half as many samples along an axis as the previous one.
     pub octaves: Vec<ScaleOctave>,
 }
 
-/// The layers that have samples at the same places.
+/// Layers with samples at the same positions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScaleOctave {
     /// log₂ of the pixels of the image per sample.
     pub octave: i32,
     /// Pixels of the image per sample.
     pub step_px: f64,
-    /// Place of the first sample, pixels of the image.
+    /// Position of the first sample, pixels of the image.
     pub origin: [f64; 2],
     /// Blurred images, `layers_per_octave + 3` of them.
     pub blurred: Vec<GrayImage32>,
-    /// Standard deviation of each one's blur, pixels of the image.
+    /// Standard deviation of the blur of each image, pixels of the original.
     pub sigmas_px: Vec<f64>,
     /// Each blurred image minus the previous one: one fewer.
     pub differences: Vec<GrayImage32>,
 }
 
-/// The scale space of an image.
+/// Computes the scale space of an image.
 ///
-/// Difference k of an octave is `G(σₖ₊₁) ∗ I − G(σₖ) ∗ I`. Its extrema belong to the blur `σₖ`. An
-/// image smaller than about a dozen pixels has no octaves. The one stage is
-/// [`Stage::FeatureDetection`].
+/// Difference k of an octave is `G(σₖ₊₁) ∗ I − G(σₖ) ∗ I`. Its extrema have the blur `σₖ`. An image
+/// smaller than about a dozen pixels has no octaves. The only stage is [`Stage::FeatureDetection`].
 ///
 /// # Errors
 /// As [`detect_sift`](super::detect_sift).
@@ -124,14 +123,15 @@ fn difference(
 }
 
 impl ScaleSpace {
-    /// Responses of the differences at a pixel: pairs of the blur in pixels and the difference, by
-    /// growing blur. Each octave gives the layers that it searches for extrema.
+    /// Returns the responses of the differences at a pixel: pairs of the blur in pixels and the
+    /// difference, by increasing blur. Each octave contributes the layers that are searched for
+    /// extrema.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::feature::{SiftOptions, scale_space};
     /// use epipole::imaging::GrayImage32;
-    /// // A bright blob of standard deviation 5 answers most where the blur is as wide as itself.
+    /// // A bright blob of standard deviation 5 has its maximum response near that blur.
     /// let blob = GrayImage32::from_fn(129, 129, |u, v| {
     ///     let (x, y) = (u as f32 - 64.0, v as f32 - 64.0);
     ///     image::Luma([libm::expf(-(x * x + y * y) / 50.0)])

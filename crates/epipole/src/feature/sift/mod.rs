@@ -1,4 +1,4 @@
-//! SIFT: keypoints that survive scaling and rotation, and descriptors that survive light.
+//! SIFT: keypoints invariant to scale and rotation, with descriptors robust to illumination.
 
 mod describe;
 mod descriptor;

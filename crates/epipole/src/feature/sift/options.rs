@@ -1,4 +1,4 @@
-//! Choices of the detector and of its descriptors.
+//! Options of SIFT.
 
 use crate::{Error, Result};
 use derive_setters::Setters;
@@ -11,10 +11,10 @@ use derive_setters::Setters;
     serde(rename_all = "snake_case")
 )]
 pub enum SiftNormalization {
-    /// Lowe's: unit length, entries above 0.2 cut, unit length again.
+    /// Lowe's: unit length, entries clipped at 0.2, unit length again.
     #[default]
     L2,
-    /// RootSIFT: the square roots of the entries' shares of their sum, so that the Euclidean
+    /// RootSIFT: the square roots of the entries divided by their sum, so that the Euclidean
     /// distance compares histograms by the Hellinger kernel.
     ///
     /// Source: Arandjelović & Zisserman 2012, "Three things everyone should know to improve
@@ -22,9 +22,9 @@ pub enum SiftNormalization {
     Root,
 }
 
-/// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as OpenCV takes them,
-/// but for the blur that the image is assumed to have: 0.3 in place of 0.5 pixels. The first octave
-/// is then blurred more, and fewer of the features are too small to be seen from further away.
+/// Options of [`detect_sift`](super::detect_sift). The defaults are Lowe's, as in OpenCV, except
+/// for the assumed blur of the image: 0.3 instead of 0.5 pixels. The first octave is then blurred
+/// more, and fewer of the features are too small to be seen from farther away.
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -34,26 +34,26 @@ pub enum SiftNormalization {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct SiftOptions {
-    /// At most so many features, the strongest; 0 means no limit.
+    /// Maximum number of features; the strongest are kept. 0 means no limit.
     pub max_features: usize,
-    /// Layers per octave in which extrema are looked for, 1 to 10.
+    /// Number of layers per octave that are searched for extrema, 1 to 10.
     pub layers_per_octave: usize,
     /// Blur of the first layer of an octave, pixels of that octave, 0.8 to 4.
     pub sigma_px: f64,
-    /// Blur that the image is assumed to have, pixels, 0 to `sigma_px / 2`.
+    /// Assumed blur of the image, pixels, 0 to `sigma_px / 2`.
     pub input_blur_px: f64,
-    /// Start at twice the image's size (octave −1): more and smaller features, four times the
-    /// work.
+    /// Start at twice the image's size (octave −1): gives more and smaller features, at four times
+    /// the cost.
     pub upsample: bool,
-    /// Smallest answer of an extremum times the layers per octave, for gray values in [0, 1].
+    /// Minimum response of an extremum times the layers per octave, for gray values in [0, 1].
     pub contrast_threshold: f32,
-    /// Largest ratio of the principal curvatures, > 1.
+    /// Maximum ratio of the principal curvatures, > 1.
     pub edge_threshold: f32,
-    /// At most so many directions per place, ≥ 1; each makes a feature.
+    /// Maximum number of directions per position, ≥ 1; each gives a feature.
     pub max_orientations: usize,
-    /// A further direction needs this share of the strongest one's weight, in (0, 1].
+    /// Minimum weight of a further direction, relative to the strongest, in (0, 1].
     pub orientation_peak_ratio: f32,
-    /// Take every direction to be 0: for cameras held upright.
+    /// Assume direction 0, for upright cameras.
     pub upright: bool,
     /// Scaling of descriptors.
     pub normalization: SiftNormalization,
@@ -77,7 +77,7 @@ impl Default for SiftOptions {
     }
 }
 
-/// Refuses options outside their range.
+/// Rejects options outside their range.
 pub(super) fn check(options: &SiftOptions) -> Result<()> {
     let ranges = [
         (

@@ -1,4 +1,4 @@
-//! Directions of a keypoint: histogram of the gradients around it, and its peaks.
+//! Directions of a keypoint: histogram of the surrounding gradients, and its peaks.
 
 use super::descriptor::Samples;
 use super::options::SiftOptions;
@@ -7,7 +7,7 @@ use std::f32::consts::{PI, TAU};
 
 pub(super) const NUM_BINS: usize = 36;
 
-/// The directions of the gradients around a place, strongest first, in (−π, π].
+/// Returns the directions of the gradients around a position, strongest first, in (−π, π].
 pub(super) fn directions(
     layer: &GrayImage32,
     center: (f32, f32),
@@ -18,10 +18,11 @@ pub(super) fn directions(
     peaks(&histogram(layer, center, sigma, scratch), options)
 }
 
-/// Histogram of the gradients around a place; bin k is at an angle of `k · 10° − 180°`.
+/// Computes the histogram of the gradients around a position; bin k is at an angle of `k · 10° −
+/// 180°`.
 ///
-/// The weights fall off as a Gaussian of 1.5 times the keypoint's blur; each gradient is shared
-/// by the two bins around it; the histogram is smoothed by `[1 4 6 4 1]/16`.
+/// The weights are a Gaussian of 1.5 times the keypoint's blur; each gradient is distributed to the
+/// two nearest bins; the histogram is smoothed by `[1 4 6 4 1]/16`.
 ///
 /// Source: Lowe 2004, §5.
 pub(super) fn histogram(
@@ -46,7 +47,7 @@ pub(super) fn histogram(
         histogram[low] += weight - share;
         histogram[low + 1] += share;
     }
-    // Bin 36 is bin 0 again: both lie at an angle of ±π.
+    // Bin 36 equals bin 0: both are at an angle of ±π.
     histogram[0] += histogram[NUM_BINS];
     let h = |k: usize| histogram[k % NUM_BINS];
     std::array::from_fn(|k| {
@@ -55,11 +56,11 @@ pub(super) fn histogram(
     })
 }
 
-/// The peaks of a [`histogram`], strongest first, in (−π, π]; a parabola gives each between bins.
+/// Returns the peaks of a [`histogram`], strongest first, in (−π, π], refined by parabolas.
 fn peaks(smooth: &[f32; NUM_BINS], options: &SiftOptions) -> Vec<f32> {
     let strongest = smooth.iter().fold(0.0f32, |m, &v| m.max(v));
     if strongest <= 0.0 {
-        // No gradient at all: any direction is as good.
+        // Without a gradient any direction is equally good.
         return vec![0.0];
     }
     let mut peaks: Vec<(f32, f32)> = Vec::new();
@@ -70,7 +71,7 @@ fn peaks(smooth: &[f32; NUM_BINS], options: &SiftOptions) -> Vec<f32> {
             let offset = 0.5 * (left - right) / (left - 2.0 * here + right);
             let angle = (k as f32 + offset) * (TAU / NUM_BINS as f32) - PI;
             let angle = if angle <= -PI { angle + TAU } else { angle };
-            // The strongest first.
+            // Strongest first.
             let is_before = |other: &(f32, f32)| {
                 let order = here.total_cmp(&other.0).then(other.1.total_cmp(&angle));
                 order.is_lt()

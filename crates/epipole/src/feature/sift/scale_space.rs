@@ -1,11 +1,11 @@
-//! The scale space: octaves of increasingly blurred layers, a few of them in memory at a time.
+//! Scale space: octaves of increasingly blurred layers, a few of them in memory at a time.
 //!
-//! Every step is symmetric about the middle of the image. Doubling puts new samples half way
-//! between old ones, `2w − 1` of them, and none outside. Halving keeps every second sample where
-//! their number is odd; where it is even it takes the places half way between pairs, so that both
-//! ends are treated alike. Sampling every second pixel of an even row would shift the grid by half
-//! a pixel between an image and its mirror image, and up-sampling as photographs are resized would
-//! shift all keypoints by a quarter.
+//! Every step is symmetric about the middle of the image. Doubling puts new samples halfway between
+//! old ones, `2w − 1` in total, and none outside. Halving keeps every second sample if their number
+//! is odd; if it is even, it interpolates halfway between pairs, so that both ends are treated
+//! alike. Sampling every second pixel of an even row would shift the grid by half a pixel between
+//! an image and its mirror image, and the usual resizing for up-sampling would shift all keypoints
+//! by a quarter.
 
 use super::options::SiftOptions;
 use crate::Result;
@@ -15,18 +15,18 @@ use crate::math::monitored::Reporter;
 use crate::progress::{Monitor, Part, Stage};
 use std::ops::Range;
 
-/// Samples along the edge of an octave in which no extremum is looked for.
+/// Width of an octave's border that is not searched for extrema, samples.
 pub(super) const MARGIN: usize = 5;
 
-/// Octaves with fewer samples along an axis hold no extremum far enough from their edge.
+/// Minimum side of an octave: smaller ones have no extremum far enough from their border.
 const SMALLEST_SIDE: u32 = 2 * MARGIN as u32 + 2;
 
-/// The first layer of an octave, and where its samples lie in the image.
+/// The first layer of an octave, and the positions of its samples in the image.
 pub(super) struct OctaveGrid {
     pub(super) base: GrayImage32,
     /// Pixels of the image per sample.
     pub(super) step: f64,
-    /// Place of the first sample, pixels of the image.
+    /// Position of the first sample, pixels of the image.
     pub(super) origin_u: f64,
     pub(super) origin_v: f64,
     /// log₂ of the step.
@@ -34,7 +34,7 @@ pub(super) struct OctaveGrid {
 }
 
 impl OctaveGrid {
-    /// The first octave of an image, if it is large enough.
+    /// Creates the first octave of an image, if it is large enough.
     ///
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
@@ -58,7 +58,7 @@ impl OctaveGrid {
             (step, octave) = (1.0, 0);
         }
         let mut base = GrayImage32::default();
-        // The assumed blur may be all the blur that is wanted.
+        // The assumed blur may already be the required one.
         if blur > 0.01 {
             let part = &mut Part::new(monitor, 0.5, 1.0);
             blurred(&unblurred, blur, &mut base, part)?;
@@ -80,20 +80,20 @@ impl OctaveGrid {
     }
 }
 
-/// One octave: a window of four layers, those that extrema of one layer need.
+/// An octave: a window of four layers, as needed for the extrema of one layer.
 pub(super) struct Octave {
     grid: OctaveGrid,
-    /// Blur from one layer to the next.
+    /// Additional blur from one layer to the next.
     increments: Vec<f64>,
     layers_per_octave: usize,
     sigma_px: f64,
-    /// `layers[k % 4]` is layer k, for the last four.
+    /// Ring buffer of the last four layers: `layers[k % 4]` is layer k.
     layers: [GrayImage32; 4],
     newest: usize,
 }
 
 impl Octave {
-    /// An octave whose layers take the memory of the octave before it.
+    /// Creates an octave in the memory of the layers of the previous one.
     pub(super) fn new(
         mut grid: OctaveGrid,
         mut layers: [GrayImage32; 4],
@@ -123,7 +123,7 @@ impl Octave {
         &self.grid
     }
 
-    /// Makes the layers that extrema of `layer` need: up to `layer + 2`.
+    /// Computes the layers that extrema of `layer` need, up to `layer + 2`.
     ///
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
@@ -143,24 +143,24 @@ impl Octave {
         Ok(())
     }
 
-    /// A layer among the last four.
+    /// Returns a layer among the last four.
     pub(super) fn layer(&self, k: usize) -> &GrayImage32 {
         debug_assert!(k <= self.newest && self.newest < k + 4);
         &self.layers[k % 4]
     }
 
-    /// Blur of a layer between the layers, samples of this octave.
+    /// Returns the blur of a fractional layer, samples of this octave.
     pub(super) fn sigma_at(&self, layer: f64) -> f64 {
         self.sigma_px * libm::exp2(layer / self.layers_per_octave as f64)
     }
 
-    /// The next octave, from the layer with twice the first one's blur.
+    /// Creates the next octave, from the layer with twice the blur of the first.
     ///
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
     pub(super) fn next_grid(&self, monitor: &mut dyn Monitor) -> Result<Option<OctaveGrid>> {
         let n = self.layers_per_octave;
-        // With more layers than the window holds it is made now and once more later.
+        // With more layers than the window holds, it is computed now and once more later.
         let mut further = GrayImage32::default();
         for k in self.newest..n {
             let mut target = GrayImage32::default();
@@ -194,7 +194,7 @@ impl Octave {
     }
 }
 
-/// Blurs into an image whose memory is used again.
+/// Blurs into an image whose memory is reused.
 fn blurred(
     image: &GrayImage32,
     sigma: f64,
@@ -207,7 +207,7 @@ fn blurred(
     filter_into(image, kernels, Border::Reflect101, [target], monitor)
 }
 
-/// Twice as many samples, less one, along each axis; the new ones are means of their neighbors.
+/// Doubles the samples, less one, along each axis; the new ones are means of their neighbors.
 fn doubled(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
     let source = |v: usize| &image.as_raw()[v * w..(v + 1) * w];
@@ -229,10 +229,10 @@ fn doubled(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32
     })
 }
 
-/// Half as many samples along each axis, symmetrically.
+/// Halves the samples along each axis, symmetrically.
 fn halved(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
-    // The cubic through four samples, half way between the middle two.
+    // The cubic through four samples, halfway between the middle two.
     let middle = |a: f32, b: f32, c: f32, d: f32| 0.5625 * (b + c) - 0.0625 * (a + d);
     let at = |k: isize, size: usize| k.clamp(0, size as isize - 1) as usize;
     let size = [w.div_ceil(2), h.div_ceil(2)];
@@ -260,8 +260,8 @@ fn halved(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32>
     })
 }
 
-/// An image whose rows are made by `fill(y, memory, row)`, each from its number alone; `memory`
-/// holds `memory_len` numbers that other rows left.
+/// Computes an image row by row with `fill(y, memory, row)`, which must depend only on y; `memory`
+/// holds `memory_len` numbers with the values of other rows.
 fn row_by_row(
     [width, height]: [usize; 2],
     memory_len: usize,

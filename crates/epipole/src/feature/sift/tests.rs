@@ -1,4 +1,4 @@
-//! Tests of SIFT as a whole.
+//! End-to-end tests of SIFT.
 
 use super::*;
 use crate::Error;
@@ -31,7 +31,7 @@ fn blobs(width: u32, height: u32) -> GrayImage32 {
     })
 }
 
-/// Share of keypoints with a partner within `px`, and the mean distance of partners.
+/// Fraction of keypoints with a partner within `px`, and the mean distance of partners.
 fn partners(a: &[Keypoint], b: &[Keypoint], map: impl Fn(f64, f64) -> (f64, f64), px: f64) -> f64 {
     let near = a.iter().filter(|p| {
         let (u, v) = map(p.u, p.v);
@@ -80,10 +80,10 @@ fn a_blob_is_found_at_its_center_and_size() {
         });
         let features = detect_sift(&blob, &SiftOptions::default(), &mut ()).unwrap();
         let best = features.keypoints[0];
-        // The fitted quadratic misses by less than a twentieth of a sample of its octave.
+        // The fitted quadratic is accurate to a twentieth of a sample of its octave.
         let off = (best.u - x).abs().max((best.v - y).abs());
         assert!(off < 0.05 * libm::exp2(f64::from(best.octave)), "{best:?}");
-        // Blur s answers most to a Gaussian blob of size t where k s² = t², k = 2^(1/3).
+        // Blur s has the maximum response to a Gaussian blob of size t if k s² = t², k = 2^(1/3).
         let expected = size / libm::exp2(1.0 / 6.0);
         assert!(
             (f64::from(best.scale_px) / expected - 1.0).abs() < 0.05,
@@ -212,7 +212,7 @@ fn progress_rises_and_can_stop_the_work() {
         shares.push(status.share);
         ControlFlow::Continue(())
     });
-    // In each of five octaves five blurs, and three layers that are described.
+    // Five octaves have five blurs each, and three layers that are described.
     assert!(shares.len() > 5 * (5 + 3), "{}", shares.len());
     assert!(shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
     assert_eq!(
@@ -266,7 +266,7 @@ fn keypoints_equal_those_of_opencv_where_both_find_them() {
     );
 }
 
-/// A photograph with much detail.
+/// An image with much detail.
 fn photograph() -> Option<GrayImage32> {
     let path = fixture::data("homography/graf/img1.png")?;
     let bytes = std::fs::read(path).unwrap();
@@ -277,7 +277,7 @@ fn photograph() -> Option<GrayImage32> {
     Some(image::imageops::crop_imm(&whole, 200, 120, 360, 360).to_image())
 }
 
-/// Area shared by two discs over the area of their union; the radius is the keypoint's blur.
+/// Ratio of the intersection and union of two discs; the radius is the keypoint's blur.
 fn overlap(p: &Keypoint, q: &Keypoint) -> f64 {
     let (du, dv) = (p.u - q.u, p.v - q.v);
     let d = (du * du + dv * dv).sqrt();
@@ -295,7 +295,7 @@ fn overlap(p: &Keypoint, q: &Keypoint) -> f64 {
     shared / (pi * (r * r + s * s) - shared)
 }
 
-/// For each keypoint, its largest overlap with one of `others` and the index of that.
+/// For each keypoint, its largest overlap with one of `others`, and the index.
 fn best_overlaps(keypoints: &[Keypoint], others: &[Keypoint]) -> Vec<(f64, usize)> {
     let best = |p: &Keypoint| {
         let all = others.iter().enumerate().map(|(k, q)| (overlap(p, q), k));
@@ -308,9 +308,9 @@ fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
 
-/// The bars and the protocol of OpenCV's modules/features2d/test/test_descriptors_invariance.cpp
-/// and test_detectors_invariance.cpp: keypoints found again (overlap above one half), of these the
-/// angles within 15°; nearest descriptors that lie where they should.
+/// Thresholds and protocol of OpenCV's modules/features2d/test/test_descriptors_invariance.cpp and
+/// test_detectors_invariance.cpp: repeated keypoints (overlap above one half), of these the angles
+/// within 15°; nearest descriptors at the correct position.
 #[test]
 fn keypoints_and_descriptors_survive_rotation() {
     use crate::imaging::{Interpolation, WarpOptions, warp_affine};
@@ -389,7 +389,7 @@ fn keypoints_and_descriptors_survive_rotation() {
     }
 }
 
-/// Likewise for smaller pictures: keypoints found again, sizes within 4/5, descriptors.
+/// Likewise for smaller images: repeated keypoints, sizes within 4/5, descriptors.
 #[test]
 fn keypoints_and_descriptors_survive_scaling() {
     let Some(image) = photograph() else { return };
