@@ -1,4 +1,4 @@
-//! Multi-band blending: coarse bands change slowly from photo to photo, fine ones at once.
+//! Multi-band blending: coarse bands change gradually from photo to photo, fine ones abruptly.
 
 use super::canvas::{Canvas, View};
 use super::layer::{color, weight};
@@ -10,13 +10,13 @@ use crate::imaging::{
 use crate::progress::{Monitor, Stage, report};
 use image::{Rgb, RgbImage};
 
-/// Number of a place of the canvas without a photo.
+/// Index for canvas positions without a photo.
 const NONE: usize = usize::MAX;
 
-/// Blends photos into one picture; black where there is none.
+/// Blends photos into one image; black where there is none.
 ///
-/// * `gains`: of each view
-/// * `num_bands`: bands of frequencies, 1 for hard seams
+/// * `gains`: gain of each view
+/// * `num_bands`: number of frequency bands, 1 for hard seams
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -43,8 +43,8 @@ pub(super) fn blend_bands(
         let mut mask = Vec::with_capacity(area.width * area.height);
         for v in area.top..area.top + area.height {
             for u in area.left..area.left + area.width {
-                // Coarse bands look beyond the border of a photo: there they find the photo that
-                // is seen, if any.
+                // Coarse bands extend beyond the border of a photo, into the photo that is visible
+                // there, if any.
                 let size = photos[view.image].dimensions();
                 let owner = owner[v * width + u];
                 let shown = match owner == NONE || weight(canvas, view, size, u, v) > 0.0 {
@@ -92,7 +92,7 @@ pub(super) fn blend_bands(
     ))
 }
 
-/// The view whose weight is largest at each place.
+/// Returns the view with the largest weight at each position.
 fn owners(canvas: &Canvas, views: &[View], photos: &[&RgbImage]) -> Vec<usize> {
     let width = canvas.width();
     let mut owner = vec![NONE; width * canvas.height()];
@@ -111,7 +111,7 @@ fn owners(canvas: &Canvas, views: &[View], photos: &[&RgbImage]) -> Vec<usize> {
     owner
 }
 
-/// Mean of all photos at each place, by their weights.
+/// Returns the weighted mean of all photos at each position.
 ///
 /// # Errors
 /// [`Error::Canceled`](crate::Error::Canceled).
@@ -148,7 +148,7 @@ pub(super) fn feather(
     Ok(picture)
 }
 
-/// A part of the canvas at whose corner all bands have a pixel.
+/// Region of the canvas, aligned so that all bands have a pixel at its corner.
 struct Area {
     left: usize,
     top: usize,
@@ -158,7 +158,7 @@ struct Area {
 
 impl Area {
     fn around(view: &View, canvas: &Canvas, num_bands: usize) -> Self {
-        // Two pixels of the coarsest band, which is as far as its kernel reaches.
+        // Two pixels of the coarsest band, the radius of its kernel.
         let unit = 1 << (num_bands - 1);
         let start = |first: usize| (first / unit).saturating_sub(2) * unit;
         let end = |last: usize, size: usize| (last.div_ceil(unit) * unit + 2 * unit).min(size);

@@ -1,4 +1,4 @@
-//! The picture that photos are drawn on, and where each is.
+//! Canvas of a panorama, and the position of each photo on it.
 
 use super::panorama::Panorama;
 use super::surface::{Surface, direction};
@@ -7,19 +7,19 @@ use core::f64::consts::PI;
 use core::ops::Range;
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// A length that misses a whole number of pixels by less has it.
+/// Tolerance for rounding lengths to whole pixels.
 const ROUNDING_PX: f64 = 1e-6;
 
 /// A photo on the canvas.
 pub(super) struct View {
     pub(super) image: usize,
     pub(super) pixel_from_direction: Matrix3<f64>,
-    /// Columns and rows of the canvas where it may be seen.
+    /// Columns and rows of the canvas where the photo may be visible.
     pub(super) columns: Range<usize>,
     pub(super) rows: Range<usize>,
 }
 
-/// Directions of columns and rows.
+/// Directions of the canvas's columns and rows.
 pub(super) struct Canvas {
     columns: Vec<[f64; 2]>,
     rows: Vec<[f64; 2]>,
@@ -38,13 +38,13 @@ impl Canvas {
         direction(self.columns[u], self.rows[v])
     }
 
-    /// The canvas of all photos, and the place of each on it.
+    /// Creates the canvas of all photos, with the position of each.
     ///
     /// * `sizes`: width and height of the photos
     /// * `max_pixels`: a larger canvas is downscaled
     ///
     /// # Errors
-    /// [`Error::Degenerate`] if the photos are beyond the surface.
+    /// [`Error::Degenerate`] if the photos extend beyond the surface.
     pub(super) fn new(
         panorama: &Panorama,
         sizes: &[(u32, u32)],
@@ -73,7 +73,7 @@ impl Canvas {
             ];
         }
         if surface.is_round() {
-            // Beyond half a turn it begins from the other side.
+            // Beyond 180° it continues from the other side.
             if whole[0] < -PI || whole[1] > PI {
                 whole = [-PI, PI, whole[2], whole[3]];
             }
@@ -128,7 +128,7 @@ const BEYOND: Error = Error::Degenerate {
     why: "a photo looks beyond what the surface shows: a cylinder shows all around, a sphere everything",
 };
 
-/// Least and largest x and y of a photo on a surface; `None` if part of it is beyond.
+/// Returns the minimum and maximum x and y of a photo on a surface; `None` if part of it is beyond.
 fn bounds(
     matrix: &Matrix3<f64>,
     (width, height): (u32, u32),
@@ -165,7 +165,7 @@ fn bounds(
             bounds[3].max(y),
         ];
     }
-    // A photo that looks straight up or down goes all around there.
+    // A photo that looks straight up or down covers all azimuths there.
     let pole = |y: f64| {
         let p = matrix * Vector3::new(0.0, y, 0.0);
         let inside = |x: f64, last: f64| (0.0..=last).contains(&(x / p.z));

@@ -1,4 +1,4 @@
-//! Photos of one plane.
+//! Panoramas of planes.
 
 use super::overlap::Overlap;
 use super::panorama::Panorama;
@@ -6,16 +6,16 @@ use super::tree::largest_tree;
 use crate::Result;
 use nalgebra::{Matrix3, Vector3};
 
-/// The places of photos of one plane, or from one place, by homographies from one to the next. The
-/// frame is that of the photo in the middle: a direction (x, y, 1) is its pixel s (x, y) for a
-/// scale s of [`Panorama::scale_px`], and the surface must be [`Surface::Plane`](super::Surface).
+/// Aligns photos of one plane, or from one position, by chained homographies. The frame is that of
+/// the central photo: a direction (x, y, 1) is its pixel s (x, y) for a scale s of
+/// [`Panorama::scale_px`], and the surface must be [`Surface::Plane`](super::Surface).
 ///
 /// * `num_images`: number of photos
-/// * `overlaps`: pairs of photos; photos that they do not join to the largest set have no place
+/// * `overlaps`: pairs of photos; photos not connected to the largest set are left out
 ///
 /// # Errors
 /// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap,
-/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an overlap of a photo that is not there.
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) if an overlap refers to a missing photo.
 ///
 /// Source: Szeliski 2022, §8.2.
 ///
@@ -34,7 +34,7 @@ use nalgebra::{Matrix3, Vector3};
 /// ```
 pub fn chain_homographies(num_images: usize, overlaps: &[Overlap]) -> Result<Panorama> {
     let tree = largest_tree(num_images, overlaps)?;
-    // About the size of a photo, so that directions are as far from z as those of a camera.
+    // About the size of a photo, so that directions have angles to z like those of a camera.
     let pixels = overlaps
         .iter()
         .flat_map(|overlap| overlap.pixels.iter().flatten());
@@ -51,7 +51,7 @@ pub fn chain_homographies(num_images: usize, overlaps: &[Overlap]) -> Result<Pan
         };
         let seen = overlap.pixels[usize::from(overlap.images[0] != parent)].first();
         matrices[child] = child_from_parent.zip(seen).and_then(|(h, pixel)| {
-            // Both photos see the matches in front of them.
+            // The matches are in front of both cameras.
             let h = h * (h * pixel.to_homogeneous()).z.signum();
             let of_parent: Matrix3<f64> = matrices[parent]?;
             Some(h * of_parent)

@@ -1,11 +1,11 @@
-//! Exposure: one gain a photo.
+//! Exposure compensation: one gain per photo.
 
 use super::canvas::{Canvas, View};
 use super::layer::{color, weight};
 use image::RgbImage;
 use nalgebra::{DMatrix, DVector};
 
-/// Distance of the places of the canvas that are compared, pixels.
+/// Distance between canvas positions to compare, pixels.
 const STEP_PX: usize = 8;
 
 /// Standard deviation of the difference of two photos, of 255.
@@ -14,7 +14,7 @@ const NOISE: f64 = 10.0;
 /// Standard deviation of a gain from 1.
 const SPREAD: f64 = 0.1;
 
-/// The gain of each view that makes overlapping photos alike.
+/// Computes the gain of each view that best equalizes overlapping photos.
 ///
 /// Source: Brown & Lowe 2007, §6.
 pub(super) fn gains(canvas: &Canvas, views: &[View], photos: &[&RgbImage]) -> Vec<f32> {
@@ -43,7 +43,7 @@ pub(super) fn gains(canvas: &Canvas, views: &[View], photos: &[&RgbImage]) -> Ve
     let mut normal = DMatrix::<f64>::zeros(count, count);
     let mut right = DVector::<f64>::zeros(count);
     for i in 0..count {
-        // A photo that overlaps none keeps its exposure.
+        // A photo without overlap keeps its exposure.
         let mut prior = 1e-9;
         for j in (0..count).filter(|&j| numbers[(i, j)] > 0.0) {
             let number = numbers[(i, j)];

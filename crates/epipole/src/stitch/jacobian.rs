@@ -1,4 +1,4 @@
-//! The least-squares problem of rotations and one factor of the focal lengths.
+//! Least-squares problem of rotations and a common focal factor.
 
 use crate::camera::{Intrinsics, cross_matrix};
 use crate::optim::{DenseProblem, RobustLoss};
@@ -7,17 +7,18 @@ use nalgebra::{DMatrix, DVector, Matrix2x3, Matrix3, Point2, Rotation3, Vector2,
 /// Width of the Cauchy loss, pixels.
 const WIDTH_PX: f64 = 1.0;
 
-/// Angle below which series replace quotients, radians.
+/// Angle below which quotients are replaced by series, radians.
 const SMALL: f64 = 1e-4;
 
-/// A match of two photos, by their numbers.
+/// A match between two photos, given by index.
 pub(super) struct PixelMatch {
     pub(super) images: [usize; 2],
     pub(super) pixels: [Point2<f64>; 2],
 }
 
-/// Photos by number, the first of which does not turn: parameters are a rotation vector for each
-/// other one, which follows its start, and the logarithm of the factor relative to its start.
+/// Photos by index, the first of which is fixed: the parameters are a rotation vector for each
+/// other photo, applied after its initial rotation, and the logarithm of the factor relative to its
+/// initial value.
 pub(super) struct Turns {
     pub(super) intrinsics: Vec<Intrinsics>,
     pub(super) starts: Vec<Matrix3<f64>>,
@@ -49,9 +50,9 @@ pub(super) struct TurnsProblem {
     pub(super) is_focal_held: bool,
 }
 
-/// A match at some parameters.
+/// A match for some parameters.
 struct Seen {
-    /// Ray in image 1, its z the factor.
+    /// Ray in image 1, with its z scaled by the factor.
     ray1: Vector3<f64>,
     /// The same in image 2.
     ray2: Vector3<f64>,
@@ -59,7 +60,7 @@ struct Seen {
     residual: Vector2<f64>,
     /// Derivatives of the residual by `ray2`.
     by_ray: Matrix2x3<f64>,
-    /// Residual plus pixel, from the principal point.
+    /// Predicted pixel relative to the principal point.
     about: Vector2<f64>,
 }
 
@@ -103,7 +104,7 @@ impl TurnsProblem {
     }
 }
 
-/// Derivatives of `exp(w) x` by w are `−[exp(w) x]× J(w)`.
+/// Returns J(w), for the derivatives of `exp(w) x` by w, `−[exp(w) x]× J(w)`.
 fn left_jacobian(w: &Vector3<f64>) -> Matrix3<f64> {
     let (angle, cross) = (w.norm(), cross_matrix(w));
     let (a, b) = match angle < SMALL {

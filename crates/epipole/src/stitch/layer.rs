@@ -1,17 +1,17 @@
-//! A photo, drawn on the canvas.
+//! Sampling of a photo on the canvas.
 
 use super::canvas::{Canvas, View};
 use crate::imaging::{Border, bilinear};
 use image::RgbImage;
 use nalgebra::Point2;
 
-/// The pixel of a photo at a place of the canvas, also beyond its border; `None` behind it.
+/// Returns the pixel of a photo at a canvas position, also beyond its border; `None` behind it.
 fn pixel(canvas: &Canvas, view: &View, u: usize, v: usize) -> Option<Point2<f64>> {
     let p = view.pixel_from_direction * canvas.direction(u, v);
     (p.z > 0.0).then(|| Point2::new(p.x / p.z, p.y / p.z))
 }
 
-/// Weight of a photo at a place of the canvas: 1 in its middle, 0 at its border and beyond.
+/// Returns the weight of a photo at a canvas position: 1 in its middle, 0 at its border and beyond.
 pub(super) fn weight(
     canvas: &Canvas,
     view: &View,
@@ -24,7 +24,8 @@ pub(super) fn weight(
     };
     let part = |x: f64, size: u32| {
         let side = f64::from(size);
-        // From −1 to 1 between the outer edges of the pixels; centers at the border count.
+        // From −1 to 1 between the outer edges of the pixels, so that centers of border pixels
+        // count.
         1.0 - ((2.0 * x + 1.0) / side - 1.0).abs()
     };
     let inside = |x: f64, size: u32| x >= 0.0 && x <= f64::from(size) - 1.0;
@@ -34,8 +35,8 @@ pub(super) fn weight(
     }
 }
 
-/// Red, green and blue of a photo from 0 to 255 at a place of the canvas, by bilinear
-/// interpolation; the border repeats beyond it.
+/// Returns red, green and blue of a photo from 0 to 255 at a canvas position, by bilinear
+/// interpolation; border pixels are repeated outside.
 pub(super) fn color(
     canvas: &Canvas,
     view: &View,

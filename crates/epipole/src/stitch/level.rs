@@ -41,7 +41,7 @@ impl Level {
         }
     }
 
-    /// Means of the colors, 0 where there is no weight.
+    /// Returns the mean colors, 0 where there is no weight.
     pub(super) fn means(self) -> [Vec<f32>; 3] {
         let Self {
             colors, weights, ..

@@ -1,8 +1,8 @@
-//! Panoramas: photos from one place, or of one plane, joined to one picture.
+//! Panoramas: stitching of photos from one position, or of one plane.
 //!
 //! [`find_overlap`] verifies the matches of two photos by a homography. [`estimate_panorama`]
-//! finds the rotations of all photos with one focal length, [`chain_homographies`] their places on
-//! a plane. [`render_panorama`] blends the photos on a [`Surface`].
+//! estimates the rotations of all photos with a common focal length, [`chain_homographies`] their
+//! positions on a plane. [`render_panorama`] blends the photos on a [`Surface`].
 //!
 //! Source: Brown & Lowe 2007, "Automatic panoramic image stitching using invariant features".
 

@@ -18,9 +18,9 @@ use nalgebra::{Matrix3, Point2};
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct OverlapOptions {
-    /// Robust estimation of the homography; its threshold is 3 px.
+    /// Robust estimation of the homography, with a threshold of 3 px.
     pub ransac: RansacOptions,
-    /// Minimum number of matches that agree. 12.
+    /// Minimum number of inliers. 12.
     pub min_num_inliers: usize,
 }
 
@@ -33,7 +33,7 @@ impl Default for OverlapOptions {
     }
 }
 
-/// Two photos that overlap, and the matches that agree.
+/// Two overlapping photos and their inliers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlap {
     /// Indices of the photos.
@@ -42,18 +42,18 @@ pub struct Overlap {
     pub pixels: [Vec<Point2<f64>>; 2],
     /// `x2 ∝ H x1`.
     pub homography: Matrix3<f64>,
-    /// Number of matches, with those that do not agree.
+    /// Number of matches, including outliers.
     pub num_matches: usize,
-    /// Whether the matches show depth: the camera moved, and no homography fits all of them.
+    /// Whether the matches show parallax: the camera moved, and no homography fits all of them.
     pub has_parallax: bool,
 }
 
-/// Finds the homography that the matches of two photos agree on, and whether there is parallax.
+/// Finds the homography on which the matches of two photos agree, and detects parallax.
 ///
 /// * `images`: indices of the photos
-/// * `pixels1`, `pixels2`: matches; wrong ones are expected
+/// * `pixels1`, `pixels2`: matches, outliers included
 ///
-/// Returns `None` if no more matches agree than wrong ones might.
+/// Returns `None` if no more matches agree than wrong ones might by chance.
 ///
 /// # Errors
 /// As [`MatchSet::new`] and [`ransac`]; too few matches are no error.
@@ -62,7 +62,7 @@ pub struct Overlap {
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::stitch::{OverlapOptions, find_overlap};
 /// use nalgebra::Point2;
-/// // Shifted by 200 px, but for every fourth match.
+/// // Shifted by 200 px, except for every fourth match.
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let mut p2: Vec<_> = p1.iter().map(|p| Point2::new(p.x - 200.0, p.y)).collect();
 /// for (i, p) in p2.iter_mut().enumerate().step_by(4) {
@@ -93,7 +93,7 @@ pub fn find_overlap(
     }
     let homography = report.model;
     let pairs = pixels1.iter().zip(pixels2);
-    // The homography is refined last, and then some errors have changed.
+    // The final refinement of the homography changed some errors.
     let near = |(a, b): &(&Point2<f64>, &Point2<f64>)| {
         transfer_error_px(&homography, a, b) <= report.max_error_px
     };

@@ -1,4 +1,4 @@
-//! Photos in place.
+//! Alignment of photos in a panorama.
 
 use super::overlap::Overlap;
 use super::tree::largest_tree;
@@ -9,37 +9,38 @@ use crate::math::svd3;
 use crate::progress::Monitor;
 use nalgebra::{Matrix3, Vector3};
 
-/// A share of the spread of horizontal axes that tells which way is up.
+/// Minimum spread of horizontal axes that determines the vertical, relative to the largest.
 const TELLS_UP: f64 = 1e-4;
 
 /// Photos in the frame of a panorama, which looks along z with y down.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panorama {
-    /// For each photo `M`, which maps a direction of the panorama to a pixel, `p ∝ M d`, with
-    /// p.z > 0 where the photo sees it. `None` for photos that overlap no other.
+    /// For each photo the matrix `M` from directions of the panorama to pixels, `p ∝ M d`, with p.z
+    /// > 0 where the photo sees the direction. `None` for photos without overlap.
     pub pixel_from_direction: Vec<Option<Matrix3<f64>>>,
-    /// Rotations of the cameras, for those that turned: `d_in_cam = R d`.
+    /// Rotations of the cameras, for rotating cameras: `d_in_cam = R d`.
     pub rotations: Vec<Option<Matrix3<f64>>>,
-    /// Pixels per unit of a direction at z = 1: the focal length, for cameras that turned.
+    /// Pixels per unit of a direction at z = 1: the focal length, for rotating cameras.
     pub scale_px: f64,
-    /// Factor of all focal lengths, if one was looked for and the matches tell it.
+    /// Estimated common factor of the focal lengths, if requested and determined by the matches.
     pub focal_factor: Option<f64>,
 }
 
-/// The rotations of photos that were taken from one place, with one factor of their focal lengths.
+/// Estimates the rotations of photos from one position, with a common factor of their focal
+/// lengths.
 ///
-/// Overlaps are joined to a tree; the factor of least cost on a grid and the rotation that aligns
-/// the rays of each overlap are the start of a joint refinement by Levenberg–Marquardt, with a
-/// Cauchy loss. The horizon is level where the photos were taken by turning right or left.
+/// Overlaps are joined to a tree; the best factor on a grid and the rotation that aligns the rays
+/// of each overlap initialize a joint refinement by Levenberg–Marquardt, with a Cauchy loss. The
+/// horizon is leveled for photos taken by rotating left or right.
 ///
-/// * `intrinsics`: of each photo; focal lengths are given or guessed
-/// * `overlaps`: pairs of photos; photos that they do not join to the largest set have no place
-/// * `find_focal`: whether one factor of all focal lengths is looked for, from ¼ to 4
+/// * `intrinsics`: intrinsics of each photo; focal lengths are known or guessed
+/// * `overlaps`: pairs of photos; photos not connected to the largest set are left out
+/// * `find_focal`: whether to estimate a common factor of all focal lengths, from ¼ to 4
 ///
 /// # Errors
-/// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap or matches meet in a point,
-/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an overlap of a photo that is not there,
-/// [`Error::Canceled`](crate::Error::Canceled).
+/// [`Error::Degenerate`](crate::Error::Degenerate) if no photos overlap or all matches of an
+/// overlap coincide, [`Error::OutOfRange`](crate::Error::OutOfRange) if an overlap refers to a
+/// missing photo, [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: Brown & Lowe 2007, §4 and 5.
 ///
@@ -49,7 +50,7 @@ pub struct Panorama {
 /// use epipole::stitch::{OverlapOptions, estimate_panorama, find_overlap};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// // A turn by 0.3 to the right.
+/// // A rotation by 0.3 to the right.
 /// let turn = Rotation3::from_scaled_axis(Vector3::y() * -0.3);
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(200 + i * 37 % 440), f64::from(i * 71 % 480))).collect();
 /// let p2: Vec<_> = p1.iter().map(|p| k.project(&(turn * k.ray(p)).into()).unwrap()).collect();
@@ -86,8 +87,8 @@ pub fn estimate_panorama(
     })
 }
 
-/// The rotation to a frame whose y is perpendicular to the x axes of all cameras, and whose z is
-/// their mean direction.
+/// Returns the rotation to a frame whose y is perpendicular to the x axes of all cameras, and whose
+/// z is their mean direction.
 ///
 /// Source: Brown & Lowe 2007, §5 (automatic panorama straightening).
 fn leveled(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
@@ -109,7 +110,7 @@ fn leveled(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
     let ahead = mean(2);
     let signed = down * down.dot(&mean(1)).signum();
     let right = signed.cross(&ahead);
-    // All around, the mean direction may vanish.
+    // For a full circle, the mean direction may vanish.
     let (Some(y), Some(x)) = (signed.try_normalize(1e-9), right.try_normalize(1e-9)) else {
         return Matrix3::identity();
     };

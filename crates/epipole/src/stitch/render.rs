@@ -1,4 +1,4 @@
-//! The picture of a panorama.
+//! Rendering of panoramas.
 
 use super::blend::{blend_bands, feather};
 use super::canvas::Canvas;
@@ -12,7 +12,7 @@ use image::RgbImage;
 
 /// Maximum number of bands of multi-band blending.
 const MAX_BANDS: usize = 6;
-/// Width of the widest transition as a share of the picture's side: that of OpenCV's stitcher.
+/// Width of the widest transition, relative to the image's side: that of OpenCV's stitcher.
 const TRANSITION: f64 = 0.05;
 
 /// Blending of photos where they overlap.
@@ -23,10 +23,10 @@ const TRANSITION: f64 = 0.05;
     serde(rename_all = "snake_case")
 )]
 pub enum Blend {
-    /// Up to six bands of a Laplacian pyramid: no seams, and no double edges.
+    /// Up to six bands of a Laplacian pyramid: no seams, and no ghosting.
     #[default]
     Bands,
-    /// Means by the distance to the border of a photo: edges are double where photos do not fit.
+    /// Weighted means by the distance to the border of a photo: ghosting where photos do not fit.
     Feather,
     /// Hard seams.
     Seams,
@@ -42,13 +42,13 @@ pub enum Blend {
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct RenderOptions {
-    /// Surface that the photos are projected on. A cylinder.
+    /// Projection surface. A cylinder.
     pub surface: Surface,
     /// Blending. Bands.
     pub blend: Blend,
-    /// Whether exposures are made alike. True.
+    /// Whether to compensate exposure. True.
     pub gains: bool,
-    /// Maximum number of pixels; a larger picture is downscaled. 100 million.
+    /// Maximum number of pixels; larger results are downscaled. 100 million.
     pub max_pixels: u64,
 }
 
@@ -63,14 +63,14 @@ impl Default for RenderOptions {
     }
 }
 
-/// Draws all photos of a panorama on a surface; black where there is none.
+/// Renders all photos of a panorama on a surface; black where there is none.
 ///
-/// * `photos`: in the order of the panorama
-/// * `monitor`: the one stage is [`Stage::Blending`](crate::progress::Stage::Blending)
+/// * `photos`: photos in the order of the panorama
+/// * `monitor`: the only stage is [`Stage::Blending`](crate::progress::Stage::Blending)
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for another number of photos, [`Error::Degenerate`] if photos look
-/// beyond what the surface shows, [`Error::Canceled`].
+/// [`Error::SizeMismatch`] for another number of photos, [`Error::Degenerate`] if photos extend
+/// beyond the surface, [`Error::Canceled`].
 ///
 /// Source: Brown & Lowe 2007, §6 and 7.
 ///
@@ -125,7 +125,7 @@ pub fn render_panorama(
     }
 }
 
-/// Number of bands for a picture of so many pixels, from 2 on.
+/// Returns the number of bands for an image of this many pixels, from 2 upwards.
 fn num_bands(num_pixels: usize) -> usize {
     let transition_px = TRANSITION * (num_pixels as f64).sqrt();
     let count = libm::log2(transition_px.max(1.0)).ceil() as usize;
@@ -169,7 +169,7 @@ mod tests {
         }
     }
 
-    /// Largest difference of a picture from the truth where a photo is, of 255.
+    /// Maximum error of an image where there is a photo, of 255.
     fn off(panorama: &Panorama, picture: &RgbImage, surface: Surface) -> f64 {
         let sizes = [(200, 150); 3];
         let (canvas, _) = Canvas::new(panorama, &sizes, surface, 1 << 30).unwrap();

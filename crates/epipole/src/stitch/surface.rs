@@ -1,15 +1,15 @@
-//! Surfaces that photos are projected on.
+//! Projection surfaces of panoramas.
 
 use nalgebra::Vector3;
 
-/// A direction this near to the plane of the camera, as a share of its length, is beyond a plane.
+/// Minimum z of a unit direction on a plane.
 const LEAST_AHEAD: f64 = 0.1;
 
-/// Largest slope on a cylinder: about 80° above the horizon.
+/// Maximum slope on a cylinder: about 80° above the horizon.
 const STEEPEST: f64 = 6.0;
 
-/// Surface of a panorama, around the camera, with a focal length of 1. x points to the right, y
-/// down, z ahead.
+/// Projection surface around the camera, with a focal length of 1. x points to the right, y down, z
+/// ahead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -17,17 +17,17 @@ const STEEPEST: f64 = 6.0;
     serde(rename_all = "snake_case")
 )]
 pub enum Surface {
-    /// (x/z, y/z): lines stay straight; up to 120° or so.
+    /// (x/z, y/z): lines stay straight; up to about 120°.
     Plane,
-    /// (atan2(x, z), y/√(x² + z²)): verticals stay straight; all around, but not up and down.
+    /// (atan2(x, z), y/√(x² + z²)): verticals stay straight; covers 360°, but not up and down.
     #[default]
     Cylinder,
-    /// (atan2(x, z), atan2(y, √(x² + z²))): everything around.
+    /// (atan2(x, z), atan2(y, √(x² + z²))): covers all directions.
     Sphere,
 }
 
 impl Surface {
-    /// The place of a direction; `None` where the surface does not reach.
+    /// Projects a direction; `None` if it is beyond the surface.
     pub(super) fn place(self, d: &Vector3<f64>) -> Option<[f64; 2]> {
         let level = libm::hypot(d.x, d.z);
         match self {
@@ -40,7 +40,7 @@ impl Surface {
         }
     }
 
-    /// Parts of a direction that columns share: sine and cosine of the angle, or x and 1.
+    /// Returns the components of directions in a column: sine and cosine of the angle, or x and 1.
     pub(super) fn column(self, x: f64) -> [f64; 2] {
         match self {
             Self::Plane => [x, 1.0],
@@ -48,7 +48,7 @@ impl Surface {
         }
     }
 
-    /// Parts of a direction that rows share: its y, and the length of what columns share.
+    /// Returns the components of directions in a row: y, and the length of the column components.
     pub(super) fn row(self, y: f64) -> [f64; 2] {
         match self {
             Self::Plane | Self::Cylinder => [y, 1.0],
@@ -56,13 +56,13 @@ impl Surface {
         }
     }
 
-    /// Whether columns are angles.
+    /// Returns whether columns are angles.
     pub(super) fn is_round(self) -> bool {
         self != Self::Plane
     }
 }
 
-/// The direction of a column and a row.
+/// Returns the direction of a column and a row.
 pub(super) fn direction([sin, cos]: [f64; 2], [down, level]: [f64; 2]) -> Vector3<f64> {
     Vector3::new(sin * level, down, cos * level)
 }

@@ -1,4 +1,4 @@
-//! The largest set of photos that overlaps connect, and the overlaps that connect them best.
+//! Largest connected set of photos, and its best spanning tree of overlaps.
 
 use super::overlap::Overlap;
 use crate::math::UnionFind;
@@ -8,15 +8,15 @@ use crate::{Error, Result};
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tree {
     pub(super) root: usize,
-    /// Child, parent and index of their overlap; a parent comes before its children.
+    /// Child, parent and index of their overlap; parents come before their children.
     pub(super) edges: Vec<[usize; 3]>,
 }
 
-/// The tree with the most matches over the largest connected set of photos. Its root is in the
-/// middle, so that chains of homographies are short.
+/// Returns the tree with the most matches over the largest connected set of photos. Its root is in
+/// the middle, so that chains of homographies are short.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for an overlap of a photo that is not there, [`Error::Degenerate`] if no
+/// [`Error::OutOfRange`] if an overlap refers to a missing photo, [`Error::Degenerate`] if no
 /// photos overlap.
 pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Result<Tree> {
     let images = overlaps.iter().flat_map(|overlap| overlap.images);
@@ -39,7 +39,7 @@ pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Result<Tr
         }
     }
     let trees = (0..num_images).map(|root| from_root(root, &neighbors));
-    // Most photos first, then the lowest tree, then the first root.
+    // Prefer the most photos, then the lowest tree, then the first root.
     let best = trees.min_by_key(|(tree, depth)| (usize::MAX - tree.edges.len(), *depth, tree.root));
     best.map(|(tree, _)| tree)
         .filter(|tree| !tree.edges.is_empty())
@@ -49,7 +49,7 @@ pub(super) fn largest_tree(num_images: usize, overlaps: &[Overlap]) -> Result<Tr
         })
 }
 
-/// The tree below a root, and its depth.
+/// Returns the tree below a root, and its depth.
 fn from_root(root: usize, neighbors: &[Vec<[usize; 2]>]) -> (Tree, usize) {
     let mut edges = Vec::new();
     let mut depth_of = vec![usize::MAX; neighbors.len()];

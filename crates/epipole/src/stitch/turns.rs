@@ -1,4 +1,4 @@
-//! Rotations of cameras at one place, with one factor of their focal lengths.
+//! Rotations of cameras at one position, with a common focal factor.
 
 use super::jacobian::{PixelMatch, Turns, TurnsProblem};
 use super::overlap::Overlap;
@@ -10,33 +10,33 @@ use crate::two_view::align_rays;
 use crate::{Error, Result};
 use nalgebra::{DVector, Matrix3, Point2, Vector3};
 
-/// Focal lengths are looked for from the given one over this to the given one times this.
+/// Maximum ratio between the estimated focal length and the given one, either way.
 const WIDEST: f64 = 4.0;
 
-/// Number of factors tried over that range, evenly by their logarithms: steps of 9 %.
+/// Number of factors tried, evenly spaced by logarithm: steps of 9 %.
 const NUM_TRIED: usize = 33;
 
-/// Maximum number of matches over all overlaps, for the size of the dense Jacobian.
+/// Maximum number of matches over all overlaps, to limit the dense Jacobian.
 const MAX_MATCHES: usize = 6000;
 
-/// Minimum number of matches of an overlap that is thinned out.
+/// Minimum number of matches kept per overlap when there are too many.
 const MIN_OF_OVERLAP: usize = 30;
 
-/// Squared error in pixels beyond which a match costs no more.
+/// Squared error at which the cost of a match is truncated, px².
 const CLIPPED_SQ: f64 = 25.0;
 
-/// Rotation of each photo; `None` for photos beside the tree.
+/// Rotation of each photo; `None` for photos outside the tree.
 pub(super) type Rotations = Vec<Option<Matrix3<f64>>>;
 
-/// Rotations and the focal length that explain the overlaps of a tree best.
+/// Estimates the rotations and the focal length that best explain the overlaps of a tree.
 ///
-/// * `intrinsics`: of each photo; the focal lengths are given or guessed
-/// * `find_focal`: whether one factor of all focal lengths is looked for
+/// * `intrinsics`: intrinsics of each photo; focal lengths are known or guessed
+/// * `find_focal`: whether to estimate a common factor of all focal lengths
 ///
-/// Returns `None` in place of a factor that the matches do not tell: then it is 1.
+/// If the matches do not determine the factor, `None` is returned for it, and 1 is used.
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the matches of an overlap leave its rotation open;
+/// [`Error::Degenerate`] if the matches of an overlap do not determine its rotation;
 /// [`Error::Canceled`].
 pub(super) fn estimate_turns(
     intrinsics: &[Intrinsics],
@@ -120,7 +120,8 @@ pub(super) fn estimate_turns(
     Ok((rotations, start.map(|_| problem.turns.factor(&parameters))))
 }
 
-/// The factor of least cost; `None` at the end of the range, where every longer focal length fits.
+/// Returns the factor with the least cost; `None` at the end of the range, where every longer focal
+/// length fits.
 fn best_factor(cost: impl Fn(f64) -> f64) -> Option<f64> {
     let at = |n: usize| {
         let share = n as f64 / (NUM_TRIED - 1) as f64;
@@ -136,7 +137,7 @@ fn ray(k: &Intrinsics, pixel: &Point2<f64>, factor: f64) -> Vector3<f64> {
     Vector3::new(ray.x, ray.y, ray.z * factor).normalize()
 }
 
-/// The rotation from the first image to the second that aligns the rays best.
+/// Returns the rotation from the first image to the second that best aligns the rays.
 fn rotation_of(
     [k1, k2]: [&Intrinsics; 2],
     pairs: &[[Point2<f64>; 2]],
@@ -148,7 +149,7 @@ fn rotation_of(
     align_rays(rays.iter())
 }
 
-/// Sum of clipped squared errors in image 2, px².
+/// Returns the sum of truncated squared errors in image 2, px².
 fn cost_of([k1, k2]: [&Intrinsics; 2], pairs: &[[Point2<f64>; 2]], factor: f64) -> f64 {
     let most = CLIPPED_SQ * pairs.len() as f64;
     let Some(rotation) = rotation_of([k1, k2], pairs, factor) else {
@@ -156,7 +157,7 @@ fn cost_of([k1, k2]: [&Intrinsics; 2], pairs: &[[Point2<f64>; 2]], factor: f64) 
     };
     let error_sq = |[a, b]: &[Point2<f64>; 2]| {
         let seen = rotation * ray(k1, a, factor);
-        // As by a camera whose focal length is the factor times as long.
+        // As from a camera whose focal length is multiplied by the factor.
         let seen = Vector3::new(seen.x, seen.y, seen.z / factor);
         match seen.z > 0.0 {
             true => (k2.matrix() * seen / seen.z - b.to_homogeneous())
