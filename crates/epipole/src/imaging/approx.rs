@@ -1,9 +1,9 @@
-//! Angles and exponentials in `f32` by polynomials: no tables, no branches, so that loops over
-//! pixels run in vectors and give the same bits everywhere.
+//! Angles and exponentials in `f32` by polynomials: without tables and branches, so that loops over
+//! pixels vectorize and give identical bits on every platform.
 
 use std::f32::consts::{FRAC_PI_2, PI};
 
-/// `atan2(y, x)` within 3·10⁻⁷ radians; 0 for (0, 0).
+/// Computes `atan2(y, x)` within 3·10⁻⁷ radians; 0 for (0, 0).
 ///
 /// With `t = min/max` of the magnitudes, `atan t = t P(t²)` for a polynomial of degree 8 fitted at
 /// Chebyshev nodes (error 1.2·10⁻⁸ before rounding); symmetries give the other octants.
@@ -11,7 +11,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 pub(crate) fn atan2(y: f32, x: f32) -> f32 {
     let (ax, ay) = (x.abs(), y.abs());
     let (small, large) = if ax < ay { (ax, ay) } else { (ay, ax) };
-    // The smallest positive number keeps 0/0 at 0 and changes no other quotient.
+    // The smallest positive number makes 0/0 zero and changes no other quotient.
     let t = small / (large + f32::MIN_POSITIVE);
     let s = t * t;
     let mut p = 0.002_834_064_2_f32;
@@ -29,14 +29,14 @@ pub(crate) fn atan2(y: f32, x: f32) -> f32 {
     if y < 0.0 { -angle } else { angle }
 }
 
-/// `exp(x)` for x ≤ 0 within 3·10⁻⁷ of its value; 0 below −87.
+/// Computes `exp(x)` for x ≤ 0 with a relative error below 3·10⁻⁷; 0 below −87.
 ///
-/// `exp x = 2ⁿ 2ᶠ` with n whole and |f| ≤ 1/2; a polynomial of degree 6 gives `2ᶠ`.
+/// `exp x = 2ⁿ 2ᶠ` with integer n and |f| ≤ 1/2; a polynomial of degree 6 gives `2ᶠ`.
 #[inline(always)]
 pub(crate) fn exp_negative(x: f32) -> f32 {
     let clamped = if x > -87.0 { x } else { -87.0 };
     let z = clamped * std::f32::consts::LOG2_E;
-    // Adding and taking away 1.5 · 2²³ rounds to a whole number without a call.
+    // Adding and subtracting 1.5 · 2²³ rounds to an integer without a function call.
     let whole = (z + 12_582_912.0) - 12_582_912.0;
     let f = z - whole;
     let mut p = 0.000_154_697_32_f32;

@@ -1,12 +1,12 @@
-//! Values of an image beyond its edge.
+//! Values of an image beyond its border.
 
 use super::GrayImage32;
 
-/// The value of pixels outside the image.
+/// Border handling: the value of pixels outside the image.
 ///
 /// ```
 /// use epipole::imaging::Border;
-/// // The row  a b c d  seen two pixels beyond its left edge.
+/// // The row  a b c d  seen two pixels beyond its left end.
 /// assert_eq!(Border::Replicate.index(-2, 4), Some(0)); // a a|a b c d
 /// assert_eq!(Border::Reflect101.index(-2, 4), Some(2)); // c b|a b c d
 /// assert_eq!(Border::Constant(0.5).index(-2, 4), None); // .5 .5|a b c d
@@ -18,18 +18,17 @@ use super::GrayImage32;
     serde(rename_all = "snake_case")
 )]
 pub enum Border {
-    /// The edge pixel goes on for ever: `aaa|abcd|ddd`.
+    /// Repeats the border pixel: `aaa|abcd|ddd`.
     Replicate,
-    /// Mirrored about the edge pixel, which appears once: `dcb|abcd|cba`. OpenCV's default.
+    /// Mirrors about the border pixel, which appears once: `dcb|abcd|cba`. OpenCV's default.
     #[default]
     Reflect101,
-    /// One value everywhere outside, in the image's own units.
+    /// A constant value, in the image's own units.
     Constant(f32),
 }
 
 impl Border {
-    /// The index inside `0..len` that stands for `index`, or `None` for a constant border or an
-    /// empty row.
+    /// Maps `index` to an index in `0..len`, or `None` for a constant border or an empty row.
     pub fn index(self, index: isize, len: usize) -> Option<usize> {
         if len == 0 {
             return None;
@@ -51,8 +50,8 @@ impl Border {
         }
     }
 
-    /// The value at column `u`, row `v`, also where that is outside of the image; 0 in an image
-    /// without pixels, unless the border is constant.
+    /// Returns the value at column `u`, row `v`, also outside the image; 0 for an image without
+    /// pixels, unless the border is constant.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -71,7 +70,7 @@ impl Border {
         }
     }
 
-    /// The constant, or zero where the border repeats pixels.
+    /// Returns the constant, or zero for other borders.
     pub(crate) fn constant(self) -> f32 {
         match self {
             Self::Constant(value) => value,

@@ -1,4 +1,4 @@
-//! The Gaussian blur of 8-bit images in whole numbers, equal to OpenCV's bit by bit.
+//! Gaussian blur of 8-bit images in integers, bit-identical to OpenCV.
 
 use super::Border;
 use super::gaussian::samples;
@@ -6,13 +6,13 @@ use crate::math::simd::dispatched;
 use crate::{Error, Result};
 use image::GrayImage;
 
-/// An 8-bit image blurred by a Gaussian in 8-bit fixed point, equal to OpenCV's `GaussianBlur`.
+/// Blurs an 8-bit image by a Gaussian in 8-bit fixed point, equal to OpenCV's `GaussianBlur`.
 ///
-/// * `size`: an odd number of samples up to 255; `None` takes `round(6σ + 1) | 1`
+/// * `size`: an odd number of samples up to 255; `None` for `round(6σ + 1) | 1`
 /// * `sigma_px`: pixels, > 0
 ///
-/// The kernel is rounded to 256ths from its ends inwards, each error carried to the next sample,
-/// and the center takes what is left of 256.
+/// The kernel is rounded to multiples of 1/256 from its ends inwards, each error is carried to the
+/// next sample, and the center takes the remainder.
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for another size or σ.
@@ -40,7 +40,7 @@ pub(crate) fn gaussian_blur_u8(
     Ok(filter(image, &fixed_point_gaussian(sigma_px, size), border))
 }
 
-/// Samples of a Gaussian in 256ths that sum to 256.
+/// Returns samples of a Gaussian as multiples of 1/256 that sum to 256.
 fn fixed_point_gaussian(sigma_px: f64, size: usize) -> Vec<i32> {
     let exact = samples(sigma_px, size / 2);
     let mut kernel = vec![0; size];
@@ -57,7 +57,7 @@ fn fixed_point_gaussian(sigma_px: f64, size: usize) -> Vec<i32> {
     kernel
 }
 
-/// An image filtered along u and v. Sums are whole, so their order does not matter.
+/// Filters an image along u and v. Sums are integers, so their order does not matter.
 fn filter(image: &GrayImage, kernel: &[i32], border: Border) -> GrayImage {
     let (width, height) = (image.width() as usize, image.height() as usize);
     if width == 0 || height == 0 {
@@ -94,7 +94,7 @@ fn filter(image: &GrayImage, kernel: &[i32], border: Border) -> GrayImage {
         .expect("one value was computed for each pixel")
 }
 
-/// Pixels whose sums are computed at once, in registers.
+/// Number of pixels whose sums are computed at once, in registers.
 const LANES: usize = 16;
 
 dispatched! {
@@ -112,7 +112,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// `oldest`: the row of the ring that the first weight belongs to.
+    /// * `oldest`: row of the ring for the first weight
     fn across(kernel: &[i32], ring: &[i32], oldest: usize, out: &mut [u8]) {
         let (width, size) = (out.len(), kernel.len());
         let row = |k: usize| {
@@ -132,7 +132,7 @@ dispatched! {
     }
 }
 
-/// Weighted sums of the first values of as many slices as there are weights.
+/// Computes weighted sums of the first values of slices, one slice per weight.
 #[inline(always)]
 fn weighted<'a, const L: usize, T: Copy + 'a>(
     kernel: &[i32],

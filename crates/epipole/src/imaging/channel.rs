@@ -4,9 +4,9 @@ use image::Primitive;
 
 /// A channel of a pixel that can be interpolated.
 pub trait Channel: Primitive + Send + Sync {
-    /// The value as a float.
+    /// Converts the value to a float.
     fn to_float(self) -> f32;
-    /// The nearest value of the type.
+    /// Returns the nearest value of the type.
     fn from_float(value: f32) -> Self;
 }
 
@@ -26,7 +26,7 @@ impl Channel for u8 {
     }
 
     fn from_float(value: f32) -> Self {
-        // A cast saturates.
+        // Casts saturate.
         (value + 0.5) as Self
     }
 }

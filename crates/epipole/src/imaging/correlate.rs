@@ -1,4 +1,4 @@
-//! Correlation with any small kernel, separable or not, and the noise gain of kernels.
+//! Correlation with any small kernel, and the noise gain of kernels.
 
 use super::gray::from_vec;
 use super::{Border, GrayImage32};
@@ -6,22 +6,22 @@ use crate::math::monitored;
 use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 
-/// The image correlated with a kernel, an image of weights with odd sides:
-/// `out(u, v) = Σ kernel(i, j) I(u + i − rᵤ, v + j − rᵥ)`.
+/// Correlates the image with a kernel, an image of weights with odd sides: `out(u, v) = Σ kernel(i,
+/// j) I(u + i − rᵤ, v + j − rᵥ)`.
 ///
-/// It takes one multiplication for each weight and pixel; where the kernel is an outer product,
+/// Takes one multiplication per weight and pixel; for a kernel that is an outer product,
 /// [`separable_filter`](super::separable_filter) takes far fewer. The kernel is not flipped. The
-/// one stage is [`Stage::Filtering`].
+/// only stage is [`Stage::Filtering`].
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a kernel with an even side or none, [`Error::NotFinite`] for weights
-/// that are not finite, [`Error::Canceled`].
+/// [`Error::OutOfRange`] for an empty kernel or one with an even side, [`Error::NotFinite`] for
+/// weights that are not finite, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::imaging::{Border, correlate, gray_from_values};
 /// let image = gray_from_values(3, 1, vec![7.0, 8.0, 9.0])?;
-/// // The weight right of the middle fetches the neighbor on the right.
+/// // The weight to the right of the middle selects the neighbor on the right.
 /// let fetch = gray_from_values(3, 1, vec![0.0, 0.0, 1.0])?;
 /// let moved = correlate(&image, &fetch, Border::Replicate, &mut ())?;
 /// assert_eq!(moved.as_raw(), &[8.0, 9.0, 9.0]);
@@ -74,8 +74,8 @@ pub fn correlate(
     Ok(from_vec(width, height, values))
 }
 
-/// Noise gain of a filter: the standard deviation of its response to noise of standard deviation 1,
-/// independent between pixels, `√(Σ w²)`.
+/// Returns the noise gain of a filter: the standard deviation of its response to noise of standard
+/// deviation 1, independent between pixels, `√(Σ w²)`.
 ///
 /// The gain of a separable kernel is the product of the gains of its two factors.
 ///
@@ -150,7 +150,7 @@ mod tests {
                 "{measured} {predicted}"
             );
             if sigma_px >= 1.0 {
-                // Of the continuous Gaussian: 1 / (√(8π) σ²).
+                // For the continuous Gaussian: 1 / (√(8π) σ²).
                 let continuous = 1.0 / ((8.0 * std::f64::consts::PI).sqrt() * sigma_px * sigma_px);
                 assert!((predicted / continuous - 1.0).abs() < 0.01);
             }

@@ -1,16 +1,16 @@
-//! Reading the arrays that NumPy, SciPy, scikit-image and OpenCV computed for the tests.
+//! Arrays from NumPy, SciPy, scikit-image and OpenCV, for tests.
 
 use super::GrayImage32;
 use image::GrayImage;
 use std::path::PathBuf;
 
-/// An array as it stands in a `.npy` file, rows first.
+/// An array of a `.npy` file, rows first.
 pub(crate) struct Array<T> {
     pub(crate) shape: Vec<usize>,
     pub(crate) values: Vec<T>,
 }
 
-/// The real photographs, or `None` with a printed line where they are absent.
+/// Returns the path of a real photo, or `None` with a printed message if it is missing.
 pub(crate) fn data(relative: &str) -> Option<PathBuf> {
     let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
@@ -73,7 +73,7 @@ pub(crate) fn gray8(name: &str) -> GrayImage {
     GrayImage::from_raw(array.shape[1] as u32, array.shape[0] as u32, array.values).unwrap()
 }
 
-/// Asserts that two images agree within `relative` of the largest value of the reference.
+/// Asserts that two images agree to within `relative` times the reference's largest value.
 pub(crate) fn assert_close(ours: &GrayImage32, reference: &GrayImage32, relative: f32, what: &str) {
     assert_eq!(ours.dimensions(), reference.dimensions(), "{what}");
     let largest = reference

@@ -8,13 +8,13 @@ use crate::{Error, Result};
 /// Maximum size of a kernel, ±10 standard deviations of the widest Gaussian.
 const MAX_SIZE: usize = 20_001;
 
-/// Samples of a Gaussian that sum to one: `g[i] ∝ exp(−(i − r)² / 2σ²)`, `size = 2r + 1`.
+/// Returns samples of a Gaussian that sum to one: `g[i] ∝ exp(−(i − r)² / 2σ²)`, `size = 2r + 1`.
 ///
 /// * `sigma_px`: standard deviation, pixels, > 0
 /// * `size`: an odd number of samples, at most 20 001
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for another size, or for a σ outside of (0, 1000].
+/// [`Error::OutOfRange`] for another size, or for a σ outside (0, 1000].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -36,7 +36,7 @@ pub fn gaussian_kernel(sigma_px: f64, size: usize) -> Result<Vec<f32>> {
     Ok(weights.iter().map(|&w| w as f32).collect())
 }
 
-/// Normalized samples at −radius..=radius, in double precision.
+/// Returns normalized samples at −radius..=radius, in double precision.
 pub(crate) fn samples(sigma_px: f64, radius: usize) -> Vec<f64> {
     let mut weights: Vec<f64> = (0..=2 * radius)
         .map(|i| {
@@ -62,15 +62,15 @@ fn require_sigma(sigma_px: f64) -> Result<()> {
     })
 }
 
-/// Radius that holds all but 1/16 000 of a Gaussian, as OpenCV chooses it for float images.
+/// Returns the radius that contains all but 1/16 000 of a Gaussian, as in OpenCV for float images.
 pub(crate) fn radius_for(sigma_px: f64) -> usize {
     ((sigma_px * 8.0 + 1.0).round() as usize | 1) / 2
 }
 
-/// The image blurred by a Gaussian of standard deviation `sigma_px`, cut off at about 4σ.
+/// Blurs an image by a Gaussian of standard deviation `sigma_px`, truncated at about 4σ.
 ///
-/// `size = round(8σ + 1) | 1` samples, as OpenCV's `GaussianBlur` takes for float images when no
-/// size is given. The one stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
+/// The kernel has `size = round(8σ + 1) | 1` samples, as OpenCV's `GaussianBlur` for float images
+/// without a given size. The only stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
 ///
 /// * `sigma_px`: pixels, in (0, 1000]
 ///
@@ -97,9 +97,9 @@ pub fn gaussian_blur(
     Ok(blurred)
 }
 
-/// The kernels of [`gaussian_derivative`](super::gaussian_derivative): a Gaussian `g` and its
-/// derivative `g′`, both sampled to about 4σ. `g` sums to one, and `g′` gives a ramp of slope 1 the
-/// value 1.
+/// Returns the kernels of [`gaussian_derivative`](super::gaussian_derivative): a Gaussian `g` and
+/// its derivative `g′`, both sampled to about 4σ. `g` sums to one, and `g′` gives 1 for a ramp of
+/// slope 1.
 ///
 /// * `sigma_px`: standard deviation, pixels, in (0, 1000]
 ///
@@ -111,7 +111,7 @@ pub fn gaussian_blur(
 /// let (smooth, slope) = epipole::imaging::gaussian_derivative_kernels(1.0)?;
 /// assert_eq!((smooth.len(), slope.len()), (9, 9));
 /// assert!((smooth.iter().sum::<f32>() - 1.0).abs() < 1e-6);
-/// // It looks at what is right minus what is left.
+/// // The difference between right and left.
 /// assert!(slope[3] < 0.0 && slope[4] == 0.0 && slope[5] > 0.0);
 /// # Ok(()) }
 /// ```
@@ -126,7 +126,7 @@ pub fn gaussian_derivative_kernels(sigma_px: f64) -> Result<(Vec<f32>, Vec<f32>)
         })
         .sum();
     if moment <= 0.0 {
-        // So narrow that only the center weighs: the derivative is a centered difference.
+        // So narrow that only the center has weight: the derivative is a centered difference.
         return Ok((vec![0.0, 1.0, 0.0], vec![-0.5, 0.0, 0.5]));
     }
     let derivative = (0..=2 * radius).map(|i| {

@@ -1,4 +1,4 @@
-//! Image gradients: where gray values change, how fast, and in which direction.
+//! Image gradients.
 
 use super::approx::atan2;
 use super::gaussian::gaussian_derivative_kernels;
@@ -12,17 +12,17 @@ use crate::math::simd::dispatched;
 use crate::progress::{Monitor, Stage};
 use std::ops::Range;
 
-/// The two partial derivatives of an image, in the units of the filter that made them.
+/// The two partial derivatives of an image, in the units of the filter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gradient {
-    /// Derivative along u, to the right.
+    /// Derivative along u, rightwards.
     pub du: GrayImage32,
     /// Derivative along v, downwards.
     pub dv: GrayImage32,
 }
 
 impl Gradient {
-    /// The steepest slope at each pixel, `√(Iᵤ² + Iᵥ²)`.
+    /// Returns the gradient magnitude at each pixel, `√(Iᵤ² + Iᵥ²)`.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -35,10 +35,10 @@ impl Gradient {
         self.map(magnitudes)
     }
 
-    /// The direction of steepest ascent, `atan2(Iᵥ, Iᵤ)` in (−π, π], v pointing down; 0 where the
-    /// image is flat.
+    /// Returns the direction of steepest ascent, `atan2(Iᵥ, Iᵤ)` in (−π, π], v pointing down; 0 in
+    /// flat regions.
     ///
-    /// Within 3·10⁻⁷ of the exact angle, the same bits on every platform.
+    /// Accurate to 3·10⁻⁷, with identical bits on every platform.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -53,7 +53,7 @@ impl Gradient {
     }
 
     fn map(&self, run: impl Fn(&[f32], &[f32], &mut [f32])) -> GrayImage32 {
-        // Fields are public: images of different sizes share their first pixels.
+        // Fields are public, so their sizes may differ: use the common pixels.
         let mut out = vec![0.0; self.du.as_raw().len()];
         let n = out.len().min(self.dv.as_raw().len());
         run(
@@ -80,7 +80,7 @@ dispatched! {
     }
 }
 
-/// A derivative filter of small integers, not divided by its sum.
+/// A derivative filter of small integers, not normalized.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -88,18 +88,18 @@ dispatched! {
     serde(rename_all = "snake_case")
 )]
 pub enum DerivativeFilter {
-    /// `[−1 0 1]` along, `[1 2 1]` across: 8 times the slope.
+    /// `[−1 0 1]` along, `[1 2 1]` across: gain 8.
     #[default]
     Sobel3,
-    /// `[−1 −2 0 2 1]` along, `[1 4 6 4 1]` across: 128 times the slope.
+    /// `[−1 −2 0 2 1]` along, `[1 4 6 4 1]` across: gain 128.
     Sobel5,
-    /// `[−1 0 1]` along, `[3 10 3]` across: 32 times the slope; the direction is more accurate
-    /// (Scharr 2000, "Optimal operators in digital image processing").
+    /// `[−1 0 1]` along, `[3 10 3]` across: gain 32; the direction is more accurate (Scharr 2000,
+    /// "Optimal operators in digital image processing").
     Scharr,
 }
 
 impl DerivativeFilter {
-    /// Weights along the derivative, and across it.
+    /// Returns the weights along the derivative, and across.
     pub(crate) fn kernels(self) -> (&'static [f32], &'static [f32]) {
         match self {
             Self::Sobel3 => (&[-1.0, 0.0, 1.0], &[1.0, 2.0, 1.0]),
@@ -108,7 +108,7 @@ impl DerivativeFilter {
         }
     }
 
-    /// Response of the filter to a ramp that rises by one gray value per pixel.
+    /// Returns the response to a ramp that rises by one gray value per pixel.
     ///
     /// ```
     /// assert_eq!(epipole::imaging::DerivativeFilter::Sobel3.gain(), 8.0);
@@ -122,7 +122,8 @@ impl DerivativeFilter {
     }
 }
 
-/// The gradient by a filter of small integers, its [`gain`](DerivativeFilter::gain) included.
+/// Computes the gradient by a filter of small integers, including its
+/// [`gain`](DerivativeFilter::gain).
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -141,7 +142,7 @@ pub fn derivative(image: &GrayImage32, kind: DerivativeFilter, border: Border) -
     Gradient { du, dv }
 }
 
-/// Both derivatives of an image; each band of rows begins with a copy of `start`.
+/// Computes both derivatives of an image; each band of rows begins with a copy of `start`.
 fn short_derivative(image: &GrayImage32, start: &ShortDerivative) -> [GrayImage32; 2] {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let work = |rows: Range<usize>, sink: Sink<2>, _: &mut Reporter| {
@@ -159,7 +160,8 @@ fn short_derivative(image: &GrayImage32, start: &ShortDerivative) -> [GrayImage3
         .map(|values| from_vec(image.width(), image.height(), values))
 }
 
-/// The gradient by centered differences, `Iᵤ = (I(u+1, v) − I(u−1, v)) / 2`, likewise along v.
+/// Computes the gradient by centered differences, `Iᵤ = (I(u+1, v) − I(u−1, v)) / 2`, likewise
+/// along v.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -174,7 +176,7 @@ pub fn centered_difference(image: &GrayImage32, border: Border) -> Gradient {
     Gradient { du, dv }
 }
 
-/// The gradient by the 3×3 Sobel filter, 8 times the slope, as OpenCV's `Sobel` gives it.
+/// Computes the gradient by the 3×3 Sobel filter, with gain 8, as OpenCV's `Sobel`.
 ///
 /// Source: Sobel & Feldman 1968, as printed in Duda & Hart 1973, p. 271.
 ///
@@ -189,11 +191,11 @@ pub fn sobel(image: &GrayImage32, border: Border) -> Gradient {
     derivative(image, DerivativeFilter::Sobel3, border)
 }
 
-/// The gradient of the image blurred by a Gaussian, `Iᵤ = ∂g/∂u ∗ I`: slopes per pixel at a scale.
+/// Computes the gradient of the image blurred by a Gaussian, `Iᵤ = ∂g/∂u ∗ I`, per pixel.
 ///
 /// * `sigma_px`: standard deviation of the Gaussian, pixels, in (0, 1000]
 ///
-/// The sampled derivative is scaled so that a ramp of slope 1 gives exactly 1. The one stage is
+/// The sampled derivative is scaled so that a ramp of slope 1 gives exactly 1. The only stage is
 /// [`Stage::Filtering`](crate::progress::Stage::Filtering).
 ///
 /// # Errors
@@ -260,7 +262,7 @@ mod tests {
             .zip(expected.as_raw())
             .zip(gradient.magnitude().as_raw())
         {
-            // The direction of a tiny gradient hangs on its last bit.
+            // The direction of a tiny gradient depends on its last bit.
             if *size > 1e-3 {
                 let turn = (got - want).abs();
                 assert!(

@@ -1,4 +1,4 @@
-//! Gray images, and the ways from and to the types of the `image` crate.
+//! Gray images, and their conversion from and to the types of the `image` crate.
 
 use crate::math::simd::dispatched;
 use crate::{Error, Result};
@@ -6,20 +6,20 @@ use image::{GrayImage, ImageBuffer, Luma, RgbImage};
 
 /// A gray image of 32-bit floats, rows from top to bottom; black is 0 and white is 1.
 ///
-/// Filters are linear and take any range; only thresholds that are stated on [0, 1] depend on it.
+/// Filters are linear and accept any range; only thresholds stated for [0, 1] depend on the range.
 pub type GrayImage32 = ImageBuffer<Luma<f32>, Vec<f32>>;
 
-/// Weights of red, green and blue in gray: `Y = 0.299 R + 0.587 G + 0.114 B`.
+/// Luma weights of red, green and blue: `Y = 0.299 R + 0.587 G + 0.114 B`.
 ///
 /// Source: ITU-R BT.601-7, §2.5.1.
 pub const BT601_WEIGHTS: [f32; 3] = [0.299, 0.587, 0.114];
 
-/// Weights of red, green and blue in gray: `Y = 0.2126 R + 0.7152 G + 0.0722 B`.
+/// Luma weights of red, green and blue: `Y = 0.2126 R + 0.7152 G + 0.0722 B`.
 ///
 /// Source: ITU-R BT.709-6, item 3.2.
 pub const BT709_WEIGHTS: [f32; 3] = [0.2126, 0.7152, 0.0722];
 
-/// An image of the given size from its pixels in rows.
+/// Creates an image of the given size from its pixels in rows.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] unless there are `width × height` values.
@@ -43,12 +43,12 @@ pub fn gray_from_values(width: u32, height: u32, values: Vec<f32>) -> Result<Gra
     Ok(from_vec(width, height, values))
 }
 
-/// Infallible twin of [`gray_from_values`] for pixels that this room computed itself.
+/// Infallible variant of [`gray_from_values`] for pixels computed by this crate.
 pub(crate) fn from_vec(width: u32, height: u32, values: Vec<f32>) -> GrayImage32 {
     GrayImage32::from_raw(width, height, values).expect("one value was computed for each pixel")
 }
 
-/// An 8-bit gray image as floats in [0, 1]: `v / 255`.
+/// Converts an 8-bit gray image to floats in [0, 1]: `v / 255`.
 ///
 /// ```
 /// use image::{GrayImage, Luma};
@@ -60,9 +60,9 @@ pub fn gray_to_f32(image: &GrayImage) -> GrayImage32 {
     from_vec(image.width(), image.height(), values.collect())
 }
 
-/// A float image in [0, 1] as 8 bits: `round(255 v)`, clamped; a NaN becomes 0.
+/// Converts a float image in [0, 1] to 8 bits: `round(255 v)`, clamped; NaN becomes 0.
 ///
-/// It undoes [`gray_to_f32`] exactly.
+/// Inverts [`gray_to_f32`] exactly.
 ///
 /// ```
 /// use epipole::imaging::{gray_from_values, gray_to_u8};
@@ -78,14 +78,14 @@ pub fn gray_to_u8(image: &GrayImage32) -> GrayImage {
         .expect("one value was computed for each pixel")
 }
 
-/// From here to twice as much, floats are the whole numbers.
+/// Between this number and its double, floats are the integers.
 const WHOLE: f32 = 8_388_608.0;
 
 dispatched! {
     fn to_bytes(values: &[f32], bytes: &mut [u8]) {
         for (byte, value) in bytes.iter_mut().zip(values) {
             // Conversions by `as` saturate, which costs more than the rest: adding 2²³ leaves the
-            // nearest whole number in the lowest bits. Halves go up; a NaN becomes 0.
+            // nearest integer in the lowest bits. Halves round up; NaN becomes 0.
             let scaled = value * 255.0;
             let scaled = if scaled > 0.0 { scaled } else { 0.0 };
             let scaled = if scaled < 255.0 { scaled } else { 255.0 };
@@ -96,7 +96,7 @@ dispatched! {
     }
 }
 
-/// Gray from color by [`BT601_WEIGHTS`] in 15-bit fixed point, equal to OpenCV's `cvtColor`:
+/// Converts color to gray by [`BT601_WEIGHTS`] in 15-bit fixed point, equal to OpenCV's `cvtColor`:
 /// `(9798 R + 19235 G + 3735 B + 16384) / 32768`.
 ///
 /// ```
@@ -112,9 +112,10 @@ pub fn rgb_to_gray(image: &RgbImage) -> GrayImage {
         .expect("one value was computed for each pixel")
 }
 
-/// Gray in [0, 1] from color by weights of red, green and blue, `(wᵣ R + w₉ G + w_b B) / 255`.
+/// Converts color to gray in [0, 1] by weights of red, green and blue, `(wᵣ R + w₉ G + w_b B) /
+/// 255`.
 ///
-/// Weights that sum to one keep white at 1; [`BT601_WEIGHTS`] and [`BT709_WEIGHTS`] do.
+/// Weights that sum to one, such as [`BT601_WEIGHTS`] and [`BT709_WEIGHTS`], keep white at 1.
 ///
 /// ```
 /// use epipole::imaging::{BT709_WEIGHTS, rgb_to_gray_f32};
@@ -132,7 +133,7 @@ pub fn rgb_to_gray_f32(image: &RgbImage, weights: &[f32; 3]) -> GrayImage32 {
 
 /// Whether every pixel is a finite number.
 pub(crate) fn is_finite(image: &GrayImage32) -> bool {
-    // 0·v is 0 for a finite v and NaN otherwise; eight sums let the loop run in vectors.
+    // 0·v is 0 for a finite v and NaN otherwise; eight sums let the loop vectorize.
     let (chunks, rest) = image.as_raw().as_chunks::<8>();
     let mut lanes = [0.0f32; 8];
     for chunk in chunks {
@@ -143,7 +144,7 @@ pub(crate) fn is_finite(image: &GrayImage32) -> bool {
     lanes.iter().sum::<f32>() == 0.0 && rest.iter().all(|v| v.is_finite())
 }
 
-/// [`Error::NotFinite`] if a pixel is NaN or infinite.
+/// Returns [`Error::NotFinite`] if a pixel is NaN or infinite.
 pub(crate) fn require_finite(image: &GrayImage32) -> Result<()> {
     if is_finite(image) {
         Ok(())

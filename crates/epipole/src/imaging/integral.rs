@@ -6,7 +6,7 @@ use crate::progress::Monitor;
 use crate::{Error, Result};
 
 /// Sums of all pixels above and to the left, `S(u, v) = Σ_{j<v} Σ_{i<u} I(i, j)`, in double
-/// precision; any rectangle then sums in four reads.
+/// precision; the sum over any rectangle then takes four reads.
 ///
 /// Source: Crow 1984, "Summed-area tables for texture mapping".
 ///
@@ -27,7 +27,7 @@ pub struct IntegralImage {
 }
 
 impl IntegralImage {
-    /// The integral of an image.
+    /// Computes the integral of an image.
     pub fn new(image: &GrayImage32) -> Self {
         let (width, height) = (image.width() as usize, image.height() as usize);
         let stride = width + 1;
@@ -47,7 +47,8 @@ impl IntegralImage {
         }
     }
 
-    /// The sum over the rectangle `u0 ≤ u < u1`, `v0 ≤ v < v1`, cut to the image; 0 if empty.
+    /// Returns the sum over the rectangle `u0 ≤ u < u1`, `v0 ≤ v < v1`, clipped to the image; 0 if
+    /// empty.
     pub fn sum(&self, u0: usize, v0: usize, u1: usize, v1: usize) -> f64 {
         let (u1, v1) = (u1.min(self.width), v1.min(self.height));
         if u0 >= u1 || v0 >= v1 {
@@ -57,7 +58,7 @@ impl IntegralImage {
         at(u1, v1) - at(u0, v1) - at(u1, v0) + at(u0, v0)
     }
 
-    /// The mean over the same rectangle; 0 if it is empty.
+    /// Returns the mean over the same rectangle; 0 if it is empty.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -75,11 +76,11 @@ impl IntegralImage {
     }
 }
 
-/// The mean over the `size × size` window around each pixel.
+/// Computes the mean over the `size × size` window around each pixel.
 ///
 /// * `size`: an odd number of pixels, at most 1001; for larger windows see [`IntegralImage`]
 ///
-/// The one stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
+/// The only stage is [`Stage::Filtering`](crate::progress::Stage::Filtering).
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for another size, [`Error::Canceled`].

@@ -1,8 +1,8 @@
-//! Weights of a correlation along one axis, and the rows that take its results.
+//! Weights of a correlation along one axis, and destination rows for its results.
 
 use std::ops::Range;
 
-/// Weights along one axis, an odd number of them, and how they mirror.
+/// An odd number of weights along one axis, and their symmetry.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Kernel<'a> {
     pub(super) weights: &'a [f32],
@@ -47,7 +47,7 @@ pub(crate) struct Three {
 }
 
 impl Three {
-    /// `None` for other weights.
+    /// Returns `None` for other weights.
     pub(crate) fn new(weights: &[f32]) -> Option<Self> {
         match *weights {
             [before, middle, side] if before == side => Some(Self { middle, side }),
@@ -55,7 +55,7 @@ impl Three {
         }
     }
 
-    /// The weighted sum of three values, in the order of longer kernels.
+    /// Returns the weighted sum of three values, in the order of longer kernels.
     #[inline(always)]
     pub(crate) fn sum(self, before: f32, middle: f32, after: f32) -> f32 {
         self.middle * middle + self.side * (before + after)
@@ -64,14 +64,14 @@ impl Three {
 
 /// Destination of a row of results.
 pub(crate) enum Row<'a> {
-    /// Over what is there.
+    /// Overwrites existing values.
     Over(&'a mut [f32]),
-    /// To the end of a list, so that new memory is written once, not first filled with zeros.
+    /// Appends to a list, so that new memory is written only once, not first filled with zeros.
     End(&'a mut Vec<f32>),
 }
 
 impl Row<'_> {
-    /// Columns as numbers to be overwritten. Each is asked for once, in order.
+    /// Returns columns to be overwritten. Each must be requested once, in order.
     #[inline]
     pub(crate) fn columns(&mut self, columns: Range<usize>) -> &mut [f32] {
         match self {

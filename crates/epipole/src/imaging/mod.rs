@@ -1,8 +1,8 @@
 //! Gray images: borders, filters, gradients, pyramids, resizing and warps.
 //!
 //! Pixel centers are at integers and (u, v) = (column, row). Filters are sums over pixels: a NaN
-//! pixel makes the results that touch it NaN, and nothing else.
-//! An image without pixels gives an image without pixels.
+//! pixel affects only the results that use it. An image without pixels gives an image without
+//! pixels.
 //!
 //! Image types are those of the `image` crate: [`GrayImage32`] for floats, `image::GrayImage` for
 //! bytes.
@@ -57,7 +57,7 @@ pub use separable::separable_filter;
 pub use sharpness::sharpness;
 pub use warp::{Interpolation, WarpOptions, warp_affine, warp_perspective};
 
-/// The rows of an image in at most `count` ranges.
+/// Splits the rows of an image into at most `count` ranges.
 #[cfg(feature = "parallel")]
 pub(crate) fn bands(height: usize, count: usize) -> Vec<std::ops::Range<usize>> {
     let each = height.div_ceil(count).max(1);

@@ -5,11 +5,11 @@ use super::kernel::Kernel;
 use super::separable::Ring;
 use super::{Border, GrayImage32};
 
-/// Weights 1 4 6 4 1 of sixteen.
+/// Binomial weights 1 4 6 4 1, divided by sixteen.
 const BINOMIAL: [f32; 5] = [1.0 / 16.0, 0.25, 0.375, 0.25, 1.0 / 16.0];
 
-/// The image at half its size: blurred by the binomial kernel `[1 4 6 4 1]/16` both ways, every
-/// second pixel kept, `⌈w/2⌉ × ⌈h/2⌉`. Pixel u of the result lies at 2u of the image.
+/// Halves the image: blurs by the binomial kernel `[1 4 6 4 1]/16` in both directions and keeps
+/// every second pixel, `⌈w/2⌉ × ⌈h/2⌉`. Pixel u of the result is at 2u of the image.
 ///
 /// Source: Burt & Adelson 1983, "The Laplacian pyramid as a compact image code", §2.
 ///
@@ -41,13 +41,13 @@ pub fn pyramid_down(image: &GrayImage32, border: Border) -> GrayImage32 {
     from_vec(half_width as u32, half_height as u32, values)
 }
 
-/// An image of the given size from one of half that size: pixels spread out to even places, then
-/// blurred by the binomial kernel times two both ways. The first sample mirrors, the last repeats,
-/// as in OpenCV's `pyrUp`.
+/// Doubles an image to the given size: moves pixels to even positions, then blurs by twice the
+/// binomial kernel in both directions. The first sample is mirrored, the last repeated, as in
+/// OpenCV's `pyrUp`.
 ///
-/// * `width`, `height`: size wanted; each twice that of the image, or one less
+/// * `width`, `height`: size of the result; each twice that of the image, or one less
 ///
-/// Any other size is an error of the caller that shows as a shifted image, never as a panic.
+/// For any other size the result is shifted; there is no panic.
 ///
 /// Source: Burt & Adelson 1983, §3 (EXPAND).
 ///
@@ -95,8 +95,8 @@ pub fn pyramid_up(image: &GrayImage32, width: u32, height: u32) -> GrayImage32 {
     from_vec(width as u32, height as u32, values)
 }
 
-/// The image and its halves by [`pyramid_down`], largest first, at most `num_levels` of them; it
-/// stops early at a single pixel.
+/// Returns the image and its halves by [`pyramid_down`], largest first, at most `num_levels`; stops
+/// early at a single pixel.
 ///
 /// ```
 /// use epipole::imaging::{GrayImage32, gaussian_pyramid};
@@ -119,9 +119,9 @@ pub fn gaussian_pyramid(image: &GrayImage32, num_levels: usize) -> Vec<GrayImage
     levels
 }
 
-/// The Laplacian pyramid: the difference of each Gaussian level and the upsampled next one,
-/// `Lₖ = Gₖ − up(Gₖ₊₁)`, and at the end the smallest Gaussian level. [`from_laplacian_pyramid`]
-/// inverts it.
+/// Computes the Laplacian pyramid: the differences between each Gaussian level and the upsampled
+/// next one, `Lₖ = Gₖ − up(Gₖ₊₁)`, and finally the smallest Gaussian level.
+/// [`from_laplacian_pyramid`] inverts it.
 ///
 /// Source: Burt & Adelson 1983, §3.
 ///
@@ -146,7 +146,7 @@ pub fn laplacian_pyramid(image: &GrayImage32, num_levels: usize) -> Vec<GrayImag
     levels
 }
 
-/// The image of a Laplacian pyramid; an empty image from no levels.
+/// Reconstructs the image of a Laplacian pyramid; an empty image for no levels.
 ///
 /// ```
 /// use epipole::imaging::from_laplacian_pyramid;

@@ -1,9 +1,9 @@
-//! Photographs with fewer pixels.
+//! Downscaling of color images.
 
 use image::RgbImage;
 use image::imageops::{FilterType, resize};
 
-/// Width and height of the same shape, at most so many pixels in all, and at least 1 × 1.
+/// Returns the size with the same aspect ratio and at most `max_pixels` pixels, at least 1 × 1.
 fn reduced_size((width, height): (u32, u32), max_pixels: u64) -> (u32, u32) {
     let pixels = u64::from(width) * u64::from(height);
     if pixels <= max_pixels {
@@ -14,11 +14,11 @@ fn reduced_size((width, height): (u32, u32), max_pixels: u64) -> (u32, u32) {
     (side(width), side(height))
 }
 
-/// The photograph with at most so many pixels: each new one is a mean, weighed by a triangle, of
-/// those around its place. One that is small enough is given back as it is.
+/// Downscales an image to at most `max_pixels` pixels: each new pixel is a triangle-weighted mean
+/// of those around its position. A sufficiently small image is returned unchanged.
 ///
-/// The corner (−½, −½) stays, as in [`resize`](super::resize()):
-/// [`Intrinsics::resized`](crate::camera::Intrinsics::resized) is its camera then.
+/// The corner (−½, −½) is preserved, as in [`resize`](super::resize()):
+/// [`Intrinsics::resized`](crate::camera::Intrinsics::resized) converts the camera.
 ///
 /// ```
 /// use epipole::imaging::reduce_rgb;
@@ -56,12 +56,12 @@ mod tests {
 
     #[test]
     fn the_middle_stays_in_the_middle() {
-        // Brightness grows to the right, so the mean stays where the corner does.
+        // Brightness grows to the right, so preserving the corner preserves the mean.
         let image = RgbImage::from_fn(64, 8, |u, _| image::Rgb([(u * 4) as u8; 3]));
         let small = reduce_rgb(image, 16 * 2);
         assert_eq!(small.dimensions(), (16, 2));
         for u in 2..14 {
-            // Pixel u of the small one lies at 4 (u + ½) − ½ of the large one.
+            // Pixel u of the small image is at 4 (u + ½) − ½ of the large one.
             let expected = 4.0 * (4.0 * (f64::from(u) + 0.5) - 0.5);
             let got = f64::from(small.get_pixel(u, 0).0[0]);
             assert!((got - expected).abs() <= 1.0, "{u}: {got} {expected}");

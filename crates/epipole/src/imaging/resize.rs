@@ -1,16 +1,16 @@
-//! Images of another size.
+//! Resizing of gray images.
 
 use super::GrayImage32;
 use super::gray::from_vec;
 use crate::math::simd::dispatched;
 use crate::{Error, Result};
 
-/// The image at another size, without aliasing: along an axis that shrinks each new pixel is the
-/// mean over the area it covers, along one that grows it is interpolated linearly.
+/// Resizes an image without aliasing: along an axis that shrinks each new pixel is the mean over
+/// its area, along one that grows it is interpolated linearly.
 ///
-/// The corner (−½, −½) stays: pixel u of the result lies at `(u + ½) w/w' − ½` of the image.
+/// The corner (−½, −½) is preserved: pixel u of the result is at `(u + ½) w/w' − ½` of the image.
 ///
-/// * `width`, `height`: the size wanted, pixels, > 0
+/// * `width`, `height`: new size, pixels, > 0
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a width or height of 0, [`Error::TooFew`] for an image without
@@ -49,7 +49,7 @@ pub fn resize(image: &GrayImage32, width: u32, height: u32) -> Result<GrayImage3
     let columns = weights(w, new_w);
     let rows = weights(image.height() as usize, height as usize);
     let mut values = Vec::with_capacity(new_w * height as usize);
-    // Rows are combined first: they are contiguous, so that loop runs in vectors.
+    // Combine rows first: they are contiguous, so that this loop vectorizes.
     let mut row = vec![0.0f32; w];
     for (first, weights) in &rows {
         combine(weights, &image.as_raw()[first * w..], &mut row);
@@ -64,11 +64,11 @@ pub fn resize(image: &GrayImage32, width: u32, height: u32) -> Result<GrayImage3
     Ok(from_vec(width, height, values))
 }
 
-/// Columns whose sums are computed at once, in registers.
+/// Number of columns whose sums are computed at once, in registers.
 const LANES: usize = 32;
 
 dispatched! {
-    /// The weighted sum of as many rows as there are weights.
+    /// Computes the weighted sum of rows, one row per weight.
     fn combine(weights: &[f32], rows: &[f32], sums: &mut [f32]) {
         let width = sums.len();
         let mut x = 0;
@@ -94,7 +94,8 @@ fn weighted<const L: usize>(weights: &[f32], rows: &[f32], width: usize) -> [f32
     sums
 }
 
-/// For each new sample, the first old one that it uses and the weights of that and the next ones.
+/// Returns, for each new sample, the index of the first old one used, and the weights from there
+/// on.
 fn weights(old: usize, new: usize) -> Vec<(usize, Vec<f32>)> {
     let scale = old as f64 / new as f64;
     let sample = |k: usize| {

@@ -1,19 +1,18 @@
-//! Rows under a kernel: along a row, across several rows, or both in one walk; and what lies
-//! beyond their ends.
+//! Application of kernels to rows: along a row, across several rows, or both in one pass, with
+//! borders.
 
 use super::Border;
 use super::kernel::{Kernel, Row, Symmetry};
 use super::weigh::{LANES, across_any, across_short, along_any, along_short, both};
 use std::ops::Range;
 
-/// Whether short kernels have loops of their own. What a page downloads does without: there the
-/// walk that goes both ways at once has most of the pixels, and these are for its ends.
+/// Whether short kernels have specialized loops. WebAssembly omits them for size: there the
+/// one-pass loop handles most pixels, and these only the ends.
 const SHORT: bool = cfg!(not(target_arch = "wasm32"));
 
 impl Kernel<'_> {
-    /// Correlates a row, `None` being one outside the image:
-    /// `out[x] = Σ weights[k] row[x + k − r]`. `edge` is memory for the ends of the row with their
-    /// border.
+    /// Correlates a row, `None` for a row outside the image: `out[x] = Σ weights[k] row[x + k −
+    /// r]`. `edge` is a buffer for the ends of the row with their border.
     pub(crate) fn along(
         &self,
         row: Option<&[f32]>,
@@ -34,7 +33,7 @@ impl Kernel<'_> {
         );
     }
 
-    /// [`along`](Self::along) where the row goes on beyond what is asked for.
+    /// Implements [`along`](Self::along) for a row that extends beyond the requested columns.
     fn inside(&self, padded: &[f32], out: &mut [f32]) {
         match self.radius() {
             1 if SHORT => along_short::<1>(self, padded, out),
@@ -44,7 +43,7 @@ impl Kernel<'_> {
         }
     }
 
-    /// Combines rows from one column on: `out[x] = Σ weights[k] rows[k][from + x]`.
+    /// Combines rows starting at a column: `out[x] = Σ weights[k] rows[k][from + x]`.
     pub(crate) fn across(&self, rows: &[Vec<f32>], from: usize, out: &mut [f32]) {
         match self.radius() {
             1 if SHORT => across_short::<1>(self, rows, from, out),
@@ -55,9 +54,10 @@ impl Kernel<'_> {
     }
 }
 
-/// `along` of a row as the newest of `rows`, the last one, and then `across` all of them.
+/// Applies `along` to a row, stores it as the newest and last of `rows`, and then applies `across`
+/// to all of them.
 ///
-/// For short kernels it is one walk: the newest row is weighed while it is still in registers.
+/// For short kernels in one pass: the newest row is weighted while still in registers.
 pub(crate) fn along_and_across(
     [along, across]: [&Kernel; 2],
     row: Option<&[f32]>,
@@ -89,7 +89,7 @@ pub(crate) fn along_and_across(
     });
 }
 
-/// Both ways over columns of a row that goes on beyond them.
+/// Function for both directions over columns of a row that extends beyond them.
 type Together = fn([&Kernel; 2], &[f32], Range<usize>, &mut [Vec<f32>], &mut Row);
 
 fn apart(
@@ -103,8 +103,8 @@ fn apart(
     across.across(rows, columns.start, out.columns(columns));
 }
 
-/// Calls `run` with pieces of a row, `radius` pixels longer at both ends than the columns that
-/// they are for, from left to right. The inside is read in place; `edge` holds the ends.
+/// Calls `run` with pieces of a row, `radius` pixels longer at both ends than their columns, from
+/// left to right. The interior is read in place; `edge` holds the ends.
 #[inline]
 fn with_border(
     row: Option<&[f32]>,

@@ -1,15 +1,15 @@
-//! Gray values between the pixels.
+//! Interpolation of gray values between pixels.
 
 use super::{Border, GrayImage32};
 
-/// The gray value at (u, v) by bilinear interpolation of the four pixels around it.
+/// Interpolates the gray value at (u, v) bilinearly from the four surrounding pixels.
 ///
 /// With `a, b` the fractional parts of u and v,
 /// `I = (1−a)(1−b) I₀₀ + a(1−b) I₁₀ + (1−a)b I₀₁ + ab I₁₁`.
 ///
-/// * `u`, `v`: pixels, centers at integers; beyond the image `border` decides
+/// * `u`, `v`: pixels, centers at integers; `border` applies outside the image
 ///
-/// An empty image, or a coordinate that is not finite, reads the border's constant, 0 unless set.
+/// An empty image, or a coordinate that is not finite, gives the border's constant, 0 unless set.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -22,7 +22,7 @@ pub fn sample_bilinear(image: &GrayImage32, u: f64, v: f64, border: Border) -> f
     bilinear(image.dimensions(), u, v, border, |i| image.as_raw()[i])
 }
 
-/// * `read`: the value of a pixel, by its index row by row
+/// * `read`: returns the value of a pixel by its index, row by row
 pub(crate) fn bilinear(
     (width, height): (u32, u32),
     u: f64,
@@ -43,19 +43,19 @@ pub(crate) fn bilinear(
         let read = |i, j| pixel((width, height), u0 + i, v0 + j, border, &read);
         [read(0, 0), read(1, 0), read(0, 1), read(1, 1)]
     };
-    // Written as differences, an exact pixel or a constant patch comes back exactly.
+    // With differences, an exact pixel or a constant patch is reproduced exactly.
     let (top, bottom) = (p00 + a * (p10 - p00), p01 + a * (p11 - p01));
     top + b * (bottom - top)
 }
 
-/// The gray value at (u, v) by bicubic interpolation of the sixteen pixels around it.
+/// Interpolates the gray value at (u, v) bicubically from the sixteen surrounding pixels.
 ///
 /// The kernel is Keys' with a = −1/2 (the Catmull–Rom spline): it passes through the pixels and
 /// reproduces every quadratic exactly.
 ///
-/// * `u`, `v`: pixels, centers at integers; beyond the image `border` decides
+/// * `u`, `v`: pixels, centers at integers; `border` applies outside the image
 ///
-/// An empty image, or a coordinate that is not finite, reads the border's constant, 0 unless set.
+/// An empty image, or a coordinate that is not finite, gives the border's constant, 0 unless set.
 ///
 /// Source: Keys 1981, "Cubic convolution interpolation for digital image processing", eq. 15.
 ///
@@ -70,7 +70,7 @@ pub fn sample_bicubic(image: &GrayImage32, u: f64, v: f64, border: Border) -> f3
     bicubic(image.dimensions(), u, v, border, |i| image.as_raw()[i])
 }
 
-/// * `read`: the value of a pixel, by its index row by row
+/// * `read`: returns the value of a pixel by its index, row by row
 pub(super) fn bicubic(
     size: (u32, u32),
     u: f64,
@@ -95,9 +95,9 @@ pub(super) fn bicubic(
     sum
 }
 
-/// The pixel up and left of (u, v); `None` if a coordinate is not finite.
+/// Returns the pixel to the upper left of (u, v); `None` if a coordinate is not finite.
 fn base_pixel(u: f64, v: f64) -> Option<(isize, isize)> {
-    // Far outside, the fraction has no meaning and the index must not overflow.
+    // Far outside, the fraction is meaningless and the index must not overflow.
     let clamp = |x: f64| x.floor().clamp(-1e9, 1e9) as isize;
     (u.is_finite() && v.is_finite()).then(|| (clamp(u), clamp(v)))
 }
@@ -116,7 +116,7 @@ fn pixel(
     }
 }
 
-/// Weights of the pixels at −1, 0, 1, 2 for a point at `t` in [0, 1).
+/// Returns the weights of the pixels at −1, 0, 1, 2 for a point at `t` in [0, 1).
 fn keys_weights(t: f32) -> [f32; 4] {
     [
         ((-0.5 * t + 1.0) * t - 0.5) * t,

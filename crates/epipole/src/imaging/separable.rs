@@ -1,5 +1,5 @@
-//! Separable filters in row-streaming form: each row is filtered along u once, kept in a ring
-//! while the kernel along v needs it, and never written to memory as an image of its own.
+//! Separable filters in streaming form: each row is filtered along u once, kept in a ring buffer
+//! while the kernel along v needs it, and never stored as a full image.
 
 use super::gray::from_vec;
 use super::kernel::{Kernel, Row};
@@ -11,18 +11,17 @@ use crate::{Error, Result};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-/// The image correlated with the kernel `kernel_v · kernel_uᵀ`:
-/// `out(u, v) = Σⱼ Σᵢ kernel_v[j] kernel_u[i] I(u + i − rᵤ, v + j − rᵥ)`.
+/// Correlates an image with the kernel `kernel_v · kernel_uᵀ`: `out(u, v) = Σⱼ Σᵢ kernel_v[j]
+/// kernel_u[i] I(u + i − rᵤ, v + j − rᵥ)`.
 ///
-/// It is a correlation: the kernels are not flipped. Sums run in a fixed order, symmetric kernels
-/// folded, so that a mirrored image gives the mirrored result bit by bit. The one stage is
-/// [`Stage::Filtering`].
+/// The kernels are not flipped. Sums have a fixed order, with symmetric kernels folded, so that a
+/// mirrored image gives the mirrored result bit by bit. The only stage is [`Stage::Filtering`].
 ///
 /// * `kernel_u`, `kernel_v`: weights along u and v, odd numbers of them
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a kernel of even length or none, [`Error::NotFinite`] for weights
-/// that are not finite, [`Error::Canceled`].
+/// [`Error::OutOfRange`] for a kernel that is empty or of even length, [`Error::NotFinite`] for
+/// weights that are not finite, [`Error::Canceled`].
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
@@ -57,7 +56,8 @@ pub fn separable_filter(
     Ok(filtered)
 }
 
-/// The image under several separable kernels, in one walk over its rows. Kernel lengths are odd.
+/// Applies several separable kernels to an image, in one pass over its rows. Kernel lengths are
+/// odd.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -72,7 +72,7 @@ pub(crate) fn filter<const N: usize>(
     Ok(outputs)
 }
 
-/// [`filter`] with kernels so short that it takes no monitor.
+/// Runs [`filter`] for kernels so short that no monitor is needed.
 pub(crate) fn filter_briefly<const N: usize>(
     image: &GrayImage32,
     kernels: [(&[f32], &[f32]); N],
@@ -81,7 +81,7 @@ pub(crate) fn filter_briefly<const N: usize>(
     filter(image, kernels, border, &mut ()).expect("`()` never cancels")
 }
 
-/// [`filter`] into images whose memory is used again; they are empty after an error.
+/// Runs [`filter`] into images whose memory is reused; they are empty after an error.
 pub(crate) fn filter_into<const N: usize>(
     image: &GrayImage32,
     kernels: [(&[f32], &[f32]); N],
@@ -110,13 +110,13 @@ pub(crate) fn filter_into<const N: usize>(
     Ok(())
 }
 
-/// Takes a closure that fills the next row of each image.
+/// Receiver of a closure that fills the next row of each image.
 pub(crate) type Sink<'a, const N: usize> = &'a mut dyn FnMut(&mut dyn FnMut([Row; N]));
 
-/// Makes equally large images row by row: `work` gets a range of rows, a sink that it calls for
-/// each of them in turn, and a reporter for before that. Ranges are shared between threads where
-/// the feature allows; a row must not depend on where its range begins. Vectors that are large
-/// enough are used again.
+/// Makes images of equal size row by row: `work` gets a range of rows, a sink to call for each row
+/// in order, and a reporter to call before that. Ranges are distributed to threads if the feature
+/// is enabled; a row must not depend on the start of its range. Sufficiently large vectors are
+/// reused.
 ///
 /// # Errors
 /// Those of `work`.
@@ -134,7 +134,7 @@ pub(crate) fn in_bands<const N: usize>(
     }
     let canceled = &AtomicBool::new(false);
     let reporter = &mut Reporter::of_caller(stage, monitor, canceled, 0.0..1.0);
-    // Below about a quarter of a megapixel threads cost more than they give.
+    // Below about a quarter of a megapixel threads do not pay off.
     #[cfg(feature = "parallel")]
     let threads = rayon::current_num_threads().min(size / (1 << 17));
     #[cfg(not(feature = "parallel"))]
@@ -151,7 +151,7 @@ pub(crate) fn in_bands<const N: usize>(
     }
     for image in &mut images {
         if image.capacity() < size {
-            // The system hands out zeros, each page when it is first written to.
+            // The system provides zeros lazily, page by page.
             *image = vec![0.0; size];
         }
         image.resize(size, 0.0);
@@ -178,7 +178,7 @@ pub(crate) fn in_bands<const N: usize>(
             })
         };
         let own = bands.next().map(|rows| (pieces_of(&rows), rows));
-        // The others can only fail by what the caller's reporter tells them.
+        // The other threads fail only if the caller's reporter cancels.
         rayon::in_place_scope(|scope| {
             for rows in bands {
                 let (band, pieces) = (&band, pieces_of(&rows));
@@ -194,14 +194,14 @@ pub(crate) fn in_bands<const N: usize>(
     Ok(images)
 }
 
-/// Rows of an image under several separable kernels. Asked for rows in order it filters each
-/// source row along u once.
+/// Rows of an image under several separable kernels. If rows are requested in order, each source
+/// row is filtered along u once.
 pub(crate) struct RowFilter<'a, const N: usize> {
     image: &'a GrayImage32,
     kernels: [[Kernel<'a>; 2]; N],
     border: Border,
     rings: [Ring; N],
-    /// Row that the rings are filled for.
+    /// Row for which the rings are filled.
     next: Option<usize>,
     edge: Vec<f32>,
 }
@@ -223,7 +223,7 @@ impl<'a, const N: usize> RowFilter<'a, N> {
         }
     }
 
-    /// Fills the rings for row `y`. Of a long kernel this takes longer than the rows that follow.
+    /// Fills the rings for row `y`. For a long kernel this takes longer than the following rows.
     ///
     /// # Errors
     /// [`Error::Canceled`].
@@ -236,7 +236,7 @@ impl<'a, const N: usize> RowFilter<'a, N> {
         Ok(())
     }
 
-    /// Row `y` under each kernel.
+    /// Computes row `y` for each kernel.
     pub(crate) fn row(&mut self, y: usize, out: [Row; N]) {
         if self.next != Some(y) {
             for (k, row) in self.rows_before(y) {
@@ -254,7 +254,7 @@ impl<'a, const N: usize> RowFilter<'a, N> {
         }
     }
 
-    /// Kernels and source rows that the rings hold before row `y`.
+    /// Iterates over the kernels and source rows that the rings hold before row `y`.
     fn rows_before(&self, y: usize) -> impl Iterator<Item = (usize, isize)> + use<N> {
         let radii = self.kernels.each_ref().map(|[_, across]| across.len() / 2);
         radii.into_iter().enumerate().flat_map(move |(k, radius)| {
@@ -277,7 +277,7 @@ impl<'a, const N: usize> RowFilter<'a, N> {
     }
 }
 
-/// The last rows of a stream, as many as the kernel along v is long, the oldest first.
+/// Ring buffer of the last rows of a stream, as many as the kernel along v is long, oldest first.
 pub(crate) struct Ring(Vec<Vec<f32>>);
 
 impl Ring {
@@ -285,7 +285,7 @@ impl Ring {
         Self(vec![vec![0.0; width]; length])
     }
 
-    /// The oldest row, now the newest, to be overwritten.
+    /// Returns the oldest row, now the newest, to be overwritten.
     pub(crate) fn push(&mut self) -> &mut [f32] {
         self.0.rotate_left(1);
         self.0.last_mut().map_or(&mut [], |row| row)
@@ -301,7 +301,7 @@ mod tests {
     use super::*;
     use crate::imaging::fixture;
 
-    /// Textbook double loop in f64.
+    /// Straightforward double loop in f64.
     fn reference(image: &GrayImage32, ku: &[f32], kv: &[f32], border: Border) -> GrayImage32 {
         let (w, h) = (image.width() as usize, image.height() as usize);
         GrayImage32::from_fn(image.width(), image.height(), |u, v| {
@@ -321,7 +321,7 @@ mod tests {
         })
     }
 
-    /// The texture, over and over.
+    /// The texture, repeated.
     fn tiled(width: u32, height: u32) -> GrayImage32 {
         let texture = fixture::gray32("texture.npy");
         let (w, h) = texture.dimensions();

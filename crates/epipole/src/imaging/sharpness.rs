@@ -1,13 +1,13 @@
-//! Sharpness of a photograph, relative to others of the same scene.
+//! Sharpness of an image, relative to others of the same scene.
 
 use super::{GrayImage32, laplacian_pyramid};
 
-/// The mean square of what a photograph shows between one and two steps of its Laplacian pyramid:
-/// blur takes details of a few pixels away. Single pixels do not count, since they are mostly
-/// noise, and what a codec makes of it.
+/// Returns the mean square of the second level of the image's Laplacian pyramid, with details of a
+/// few pixels, which blur removes. The first level is ignored: it is mostly noise and codec
+/// artifacts.
 ///
-/// Only photographs of one size that show much the same can be compared, such as frames of a video
-/// that follow each other. 0 for photographs of less than some four pixels a side.
+/// Only images of the same size and similar content are comparable, such as consecutive video
+/// frames. 0 for images with a side of less than about four pixels.
 ///
 /// Source: Burt & Adelson 1983, §3, for the pyramid.
 ///
@@ -21,7 +21,7 @@ use super::{GrayImage32, laplacian_pyramid};
 /// # Ok(()) }
 /// ```
 pub fn sharpness(image: &GrayImage32) -> f64 {
-    // Two differences, and what is left.
+    // Two differences, and the remainder.
     let levels = laplacian_pyramid(image, 3);
     let Some(band) = levels.get(1).filter(|_| levels.len() == 3) else {
         return 0.0;

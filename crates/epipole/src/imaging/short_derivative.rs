@@ -1,30 +1,31 @@
-//! Both derivatives of an image by filters of weights −1, 0, 1 along and three symmetric ones
-//! across, the usual ones, in one loop a row.
+//! Both derivatives of an image by the usual filters, with weights −1, 0, 1 along and three
+//! symmetric weights across, in one loop per row.
 //!
 //! The sums are those of [`RowFilter`](super::separable::RowFilter), in the same order. A new row
-//! replaces the oldest in the same loop, so that fewer rows compete for the nearest cache.
+//! replaces the oldest in the same loop, so that fewer rows compete for the L1 cache.
 
 use super::kernel::Three;
 use super::{Border, GrayImage32};
 use crate::math::simd::dispatched;
 
-/// Derivatives row by row. Asked for rows in order it filters each source row along u once.
+/// Derivatives row by row. If rows are requested in order, each source row is filtered along u
+/// once.
 #[derive(Clone)]
 pub(crate) struct ShortDerivative<'a> {
     image: &'a GrayImage32,
     across: Three,
     border: Border,
-    /// The source row with one more pixel at either end.
+    /// The source row with an additional pixel at either end.
     padded: Vec<f32>,
     /// Differences along the last two source rows, and the same rows smoothed; the older first.
     slopes: [Vec<f32>; 2],
     smooth: [Vec<f32>; 2],
-    /// Row that these are filled for.
+    /// Row for which these are filled.
     next: Option<usize>,
 }
 
 impl<'a> ShortDerivative<'a> {
-    /// `None` for other filters.
+    /// Returns `None` for other filters.
     ///
     /// * `along`, `across`: weights of the filter
     pub(crate) fn new(
@@ -48,11 +49,11 @@ impl<'a> ShortDerivative<'a> {
         })
     }
 
-    /// The derivatives of row `y`.
+    /// Computes the derivatives of row `y`.
     pub(crate) fn row(&mut self, y: usize, du: &mut [f32], dv: &mut [f32]) {
         let newest = y as isize + 1;
         if self.next != Some(y) {
-            // The last call overwrites the rows of these two.
+            // The last call overwrites the results of the first two.
             self.push(newest - 2, du, dv);
             self.push(newest - 1, du, dv);
         }
@@ -60,7 +61,7 @@ impl<'a> ShortDerivative<'a> {
         self.next = Some(y + 1);
     }
 
-    /// Takes in a source row and fills in the derivatives of the row before it.
+    /// Adds a source row and computes the derivatives of the previous row.
     fn push(&mut self, row: isize, du: &mut [f32], dv: &mut [f32]) {
         let (width, height) = (self.image.width() as usize, self.image.height() as usize);
         match self.border.index(row, height) {
@@ -86,7 +87,7 @@ impl<'a> ShortDerivative<'a> {
     }
 }
 
-/// Sets the first and the last value by the border of those between.
+/// Sets the first and last value by the border of the values between.
 pub(crate) fn pad(row: &mut [f32], border: Border) {
     let width = row.len() - 2;
     let at = |x: isize| border.index(x, width).map(|x| x + 1);
@@ -96,11 +97,11 @@ pub(crate) fn pad(row: &mut [f32], border: Border) {
 }
 
 dispatched! {
-    /// Derivatives in the row before a new one.
+    /// Computes the derivatives of the row before a new one.
     ///
     /// * `padded`: the new row
-    /// * `slope_before`: differences along the row before
-    /// * `slope`, `smooth`: of the row before that one, replaced by those of the new one
+    /// * `slope_before`: differences along the previous row
+    /// * `slope`, `smooth`: values of the row before that, replaced by those of the new row
     fn derive(
         across: Three,
         padded: &[f32],
@@ -115,7 +116,7 @@ dispatched! {
         let (slope_before, smooth) = (&slope_before[..n], &mut smooth[..n]);
         let (du, dv) = (&mut du[..n], &mut dv[..n]);
         for x in 0..n {
-            // Zero is added as in other sums: it makes −0 a 0.
+            // Zero is added as in other sums: it turns −0 into 0.
             let new_slope = 0.0 + (right[x] - left[x]);
             let new_smooth = across.sum(left[x], here[x], right[x]);
             du[x] = across.sum(slope[x], slope_before[x], new_slope);

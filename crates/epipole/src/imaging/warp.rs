@@ -1,4 +1,4 @@
-//! Images seen through an affine map or a homography.
+//! Warping of images by affine maps and homographies.
 
 use super::sample::{bicubic, bilinear};
 use super::{Border, Channel};
@@ -17,10 +17,10 @@ use nalgebra::{Matrix2x3, Matrix3};
     serde(rename_all = "snake_case")
 )]
 pub enum Interpolation {
-    /// The four pixels around.
+    /// From the four surrounding pixels.
     #[default]
     Bilinear,
-    /// The sixteen pixels around, Catmull–Rom.
+    /// From the sixteen surrounding pixels, Catmull–Rom.
     Bicubic,
 }
 
@@ -45,7 +45,7 @@ pub struct WarpOptions {
 }
 
 impl WarpOptions {
-    /// A result of the given size, bilinear, black beyond the image.
+    /// Returns options for the given size, bilinear, black outside the image.
     pub fn new(width: u32, height: u32) -> Self {
         Self {
             width,
@@ -56,11 +56,11 @@ impl WarpOptions {
     }
 }
 
-/// The image moved by an affine map: `out(x') = I(x)` where `x' = A x`, `A` = `out_from_image`.
+/// Warps an image by an affine map: `out(x') = I(x)` where `x' = A x`, `A` = `out_from_image`.
 ///
-/// * `out_from_image`: `[a b c; d e f]`, pixels to pixels, as OpenCV's `warpAffine` takes it
+/// * `out_from_image`: `[a b c; d e f]`, pixels to pixels, as for OpenCV's `warpAffine`
 ///
-/// The one stage is [`Stage::Warping`].
+/// The only stage is [`Stage::Warping`].
 ///
 /// # Errors
 /// As [`warp_perspective`].
@@ -86,13 +86,13 @@ pub fn warp_affine<P: Pixel<Subpixel: Channel>>(
     warp_perspective(image, &map, options, monitor)
 }
 
-/// The image moved by a homography: `out(x') = I(x)` where `x' ~ H x`, `H` = `out_from_image`.
+/// Warps an image by a homography: `out(x') = I(x)` where `x' ~ H x`, `H` = `out_from_image`.
 ///
-/// * `out_from_image`: pixels to pixels, any scale, as OpenCV's `warpPerspective` takes it
+/// * `out_from_image`: pixels to pixels at any scale, as for OpenCV's `warpPerspective`
 ///
-/// Gray or color, bytes or floats. Pixels of the result that no finite pixel maps to read the
-/// border's constant, 0 unless set. The map is followed backwards, pixel by pixel; a map that
-/// shrinks the image aliases, so [`resize`](super::resize()) or blur first. The one stage is
+/// Accepts gray or color, bytes or floats. Result pixels without a finite source get the border's
+/// constant, 0 unless set. The map is inverted for each pixel of the result; a map that shrinks the
+/// image aliases, so [`resize`](super::resize()) or blur first. The only stage is
 /// [`Stage::Warping`].
 ///
 /// # Errors

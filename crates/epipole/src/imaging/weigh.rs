@@ -1,21 +1,21 @@
 //! Weighted sums of pixels, many at once.
 //!
-//! They run in a fixed order, symmetric kernels folded, and no pixel depends on the block that it
-//! is computed in.
+//! Sums have a fixed order, with symmetric kernels folded, and no pixel depends on the block in
+//! which it is computed.
 
 use super::kernel::{Kernel, Row, Symmetry};
 use crate::math::simd::dispatched;
 use std::ops::Range;
 
-/// Pixels whose sums are kept in registers at once.
+/// Number of pixels whose sums are kept in registers at once.
 pub(super) const LANES: usize = 32;
-/// The same for what is too short for that; a page does not download it for the sake of a few
-/// narrow pictures.
+/// The same for rows shorter than that; WebAssembly saves the code size, since only narrow images
+/// need it.
 const FEW: usize = if cfg!(target_arch = "wasm32") { 1 } else { 8 };
 
-/// Fills `out` by blocks, the last of which may overlap the one before it.
+/// Fills `out` block by block; the last block may overlap the previous one.
 //
-// No closures in these: a closure is a function of its own, compiled for the baseline only.
+// No closures here: a closure is a separate function, compiled for the baseline only.
 macro_rules! in_blocks {
     ($kernel:expr, $r:expr, $taps:expr, $out:expr) => {{
         let n = $out.len();
@@ -65,7 +65,8 @@ dispatched! {
     }
 }
 dispatched! {
-    /// Both ways at once, over a multiple of `LANES` columns; a kernel that is not even is odd.
+    /// Filters in both directions at once, over a multiple of `LANES` columns; a kernel that is not
+    /// even is odd.
     pub(super) fn both<const R: usize, const EVEN_ALONG: bool, const EVEN_ACROSS: bool>(
         kernels: [&Kernel; 2],
         row: &[f32],
@@ -99,11 +100,11 @@ dispatched! {
 
 /// Input of a kernel.
 trait Taps<const L: usize> {
-    /// L values of tap k, from pixel x on.
+    /// Returns L values of tap k, starting at pixel x.
     fn at(&self, k: usize, x: usize) -> &[f32; L];
 }
 
-/// A row, each tap a pixel further on.
+/// A row, with each tap one pixel further on.
 struct Shifts<'a>(&'a [f32]);
 
 impl<const L: usize> Taps<L> for Shifts<'_> {
@@ -113,7 +114,7 @@ impl<const L: usize> Taps<L> for Shifts<'_> {
     }
 }
 
-/// Several rows, from one column on.
+/// Several rows, from a column on.
 struct Rows<'a>(&'a [Vec<f32>], usize);
 
 impl<const L: usize> Taps<L> for Rows<'_> {
@@ -144,7 +145,7 @@ fn lanes<const L: usize>(slice: &[f32], from: usize) -> &[f32; L] {
         .expect("the slice has this length")
 }
 
-/// `out[x] = Σ weights[k] taps[k][x]`, for L pixels.
+/// Computes `out[x] = Σ weights[k] taps[k][x]` for L pixels.
 #[inline(always)]
 fn block<const L: usize>(
     x: usize,
