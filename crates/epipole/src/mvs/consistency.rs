@@ -1,4 +1,4 @@
-//! Agreement of the depth maps of two photos.
+//! Consistency of the depth maps of two photos.
 
 use super::depth_map::DepthMap;
 use super::options::MvsOptions;
@@ -7,7 +7,7 @@ use super::views::MvsView;
 use crate::camera::{Intrinsics, relative_motion};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// A photo, one of its neighbors, and the tests of agreement.
+/// A photo, one of its neighbors, and the tests of consistency.
 pub(super) struct Agreement<'a> {
     /// Index of the neighbor.
     pub(super) neighbor: usize,
@@ -15,14 +15,14 @@ pub(super) struct Agreement<'a> {
     intrinsics: Intrinsics,
     to: Pair,
     from: Pair,
-    /// Normals of this photo to those of the neighbor.
+    /// Rotation of normals from this photo to the neighbor.
     rotation: Matrix3<f64>,
     max_error_sq: f64,
     max_difference: f64,
     min_cosine: f64,
 }
 
-/// Tests of agreement with all neighbors of a photo.
+/// Returns the tests of consistency with all neighbors of a photo.
 pub(super) fn agreements<'a>(
     views: &[MvsView],
     maps: &'a [DepthMap],
@@ -49,7 +49,8 @@ pub(super) fn agreements<'a>(
 }
 
 impl Agreement<'_> {
-    /// Index of the pixel of the neighbor that agrees with a pixel, its depth and normal.
+    /// Returns the index of the neighbor's pixel that agrees with a pixel, given its depth and
+    /// normal.
     pub(super) fn pixel(
         &self,
         [u, v]: [f64; 2],
@@ -69,7 +70,7 @@ impl Agreement<'_> {
             return None;
         }
         let other: Vector3<f64> = self.map.normals[pixel].cast();
-        // Inverse depth of the neighbor's plane at the very place, not at the nearest pixel.
+        // Inverse depth of the neighbor's plane at the exact position, not at the nearest pixel.
         let nearest = Point2::new(f64::from(column), f64::from(row));
         let rays = [Point2::new(x, y), nearest].map(|pixel| self.intrinsics.ray(&pixel));
         let found = other.dot(&rays[0]) / (other.dot(&rays[1]) * there);
@@ -86,7 +87,7 @@ impl Agreement<'_> {
     }
 }
 
-/// Number of photos that must agree on a depth of a photo with so many neighbors.
+/// Returns the number of photos that must agree on a depth, for a photo with `num_neighbors`.
 pub(super) fn num_needed(options: &MvsOptions, num_neighbors: usize) -> usize {
     options.min_views.min(num_neighbors + 1)
 }

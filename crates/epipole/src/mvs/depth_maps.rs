@@ -1,4 +1,4 @@
-//! Depth maps of all photos, from coarse to fine.
+//! Coarse-to-fine estimation of the depth maps of all photos.
 
 use super::consistency::{Agreement, agreements, num_needed};
 use super::depth_map::DepthMap;
@@ -21,30 +21,31 @@ use nalgebra::{Point2, Vector3};
 const ROWS: usize = 64;
 /// Number of rounds from random planes at the coarsest resolution.
 const FIRST_ROUNDS: usize = 6;
-/// Share of the work after which only the filter is left.
+/// Progress when only the filter is left.
 const ESTIMATED: f32 = 0.95;
-/// Largest change of a normal in the first round; half of it in the next, and so on.
+/// Maximum change of a normal in the first round; halved in each further round.
 const FIRST_NORMAL: f64 = 1.0;
-/// Smallest and largest change of the inverse depth in the rounds of a pass that continues another,
-/// pixels of the image in a neighbor.
+/// Minimum and maximum change of the inverse depth in the rounds of a later pass, as pixels of
+/// motion in a neighbor.
 const STEPS_PX: [f64; 2] = [0.5, 2.0];
 
-/// Depth and normal of each pixel of each view.
+/// Estimates depth and normal of each pixel of each view.
 ///
-/// PatchMatch with slanted planes: each pixel takes the plane of a neighboring pixel, or a randomly
-/// changed one, that costs less. The cost is one minus the bilaterally weighted correlation of an
-/// 11 × 11 patch, the mean over the [`num_best_neighbors`](MvsOptions::num_best_neighbors) views
-/// that fit best, plus, after a first pass at the coarsest resolution, the reprojection errors by
-/// the neighbors' depth maps. Each resolution continues the one of half its size. In the end a
-/// depth stays if [`min_views`](MvsOptions::min_views) photos agree on it.
+/// PatchMatch with slanted planes: each pixel takes the plane of a neighboring pixel, or a random
+/// perturbation, if that lowers the cost. The cost is one minus the bilaterally weighted
+/// correlation of an 11 × 11 patch, averaged over the
+/// [`num_best_neighbors`](MvsOptions::num_best_neighbors) best views, plus, after a first pass at
+/// the coarsest resolution, the reprojection errors by the neighbors' depth maps. Each resolution
+/// continues from half its size. Finally, a depth is kept if [`min_views`](MvsOptions::min_views)
+/// photos agree on it.
 ///
-/// * `views`: as [`prepare_views`](super::prepare_views) makes them
-/// * `monitor`: the one stage is [`Stage::DepthEstimation`]
+/// * `views`: from [`prepare_views`](super::prepare_views)
+/// * `monitor`: the only stage is [`Stage::DepthEstimation`]
 ///
 /// # Errors
-/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an option, a neighbor or a depth range that
-/// is wrong, [`Error::SizeMismatch`](crate::Error::SizeMismatch) for an image of another size than
-/// its camera, [`Error::Degenerate`](crate::Error::Degenerate) for a camera with distortion,
+/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an invalid option, neighbor or depth range,
+/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for an image with another size than its
+/// camera, [`Error::Degenerate`](crate::Error::Degenerate) for a camera with distortion,
 /// [`Error::Canceled`](crate::Error::Canceled).
 ///
 /// Source: Galliani et al. 2015; Schönberger et al. 2016; Xu & Tao 2019.
@@ -81,7 +82,7 @@ pub fn estimate_depth_maps(
 struct LevelPlan {
     halvings: usize,
     num_rounds: usize,
-    /// From random planes, without the maps of neighbors.
+    /// Whether to start from random planes, without the maps of neighbors.
     is_first: bool,
 }
 
@@ -105,7 +106,7 @@ impl LevelPlan {
         self.num_rounds + 1
     }
 
-    /// Surfaces of all photos, from those of the pass before.
+    /// Computes the surfaces of all photos from those of the previous pass.
     fn run(
         &self,
         views: &[MvsView],
@@ -175,7 +176,7 @@ impl LevelPlan {
     }
 }
 
-/// A photo and its neighbors at one resolution.
+/// Returns a photo and its neighbors at one resolution.
 fn matching<'a>(
     views: &[MvsView],
     levels: &'a [Level],
@@ -203,7 +204,7 @@ fn matching<'a>(
     }
 }
 
-/// Depths and normals of the planes that fit.
+/// Returns depths and normals of the planes that fit.
 fn to_depth_map(view: &MvsView, surface: Surface, options: &MvsOptions) -> DepthMap {
     let intrinsics = &view.camera.camera.intrinsics;
     let (width, height) = (surface.width as u32, surface.height as u32);
@@ -229,7 +230,7 @@ fn to_depth_map(view: &MvsView, surface: Surface, options: &MvsOptions) -> Depth
     }
 }
 
-/// Counts the photos that agree on each depth, and keeps depths on which enough do.
+/// Counts the photos that agree on each depth, and keeps depths with enough agreement.
 fn keep_confirmed(
     views: &[MvsView],
     maps: &mut [DepthMap],
@@ -254,7 +255,7 @@ fn keep_confirmed(
     Ok(())
 }
 
-/// Number of photos that agree on the depth of each pixel; 0 without depth.
+/// Returns the number of photos that agree on the depth of each pixel; 0 without depth.
 fn confirmations(
     views: &[MvsView],
     maps: &[DepthMap],

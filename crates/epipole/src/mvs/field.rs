@@ -8,21 +8,21 @@ use super::plane::Plane;
 pub(super) struct Hypothesis {
     pub(super) plane: Plane,
     pub(super) cost: f32,
-    /// Neighbors that count, a bit each.
+    /// Bit mask of the neighbors used.
     pub(super) views: u32,
 }
 
-/// Hypotheses as on a checkerboard: the fields of one color are updated from those of the other,
-/// so that the order of updates has no influence.
+/// Hypotheses in a checkerboard pattern: the fields of one color are updated from those of the
+/// other, so that the order of updates does not matter.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Pixel (u, v) is number u/2 in row v of color (u + v) mod 2.
+    /// Pixel (u, v) is entry u/2 in row v of color (u + v) mod 2.
     pub(super) colors: [Vec<Hypothesis>; 2],
 }
 
-/// Number of pixels of one color in a row.
+/// Returns the number of pixels of one color per row.
 pub(super) const fn row_len(width: usize) -> usize {
     width.div_ceil(2)
 }
@@ -61,7 +61,7 @@ pub(super) struct Surface {
 }
 
 impl Surface {
-    /// Plane at a place of an image of any resolution, by the nearest pixel.
+    /// Returns the plane at a position in an image of any resolution, from the nearest pixel.
     ///
     /// * `scale`: resolution of the surface relative to the image, by column and row
     #[inline(always)]
@@ -73,7 +73,7 @@ impl Surface {
         plane.moved(x - u as f32, y - v as f32)
     }
 
-    /// Resolution relative to an image.
+    /// Returns the resolution relative to an image.
     pub(super) fn scale(&self, level: &Level) -> [f32; 2] {
         let ratio = |a: usize, b: usize| a as f32 / b as f32;
         [

@@ -1,4 +1,4 @@
-//! One point cloud from the depth maps of all photos.
+//! Fusion of the depth maps of all photos to a point cloud.
 
 use super::consistency::{Agreement, agreements, num_needed};
 use super::depth_map::DepthMap;
@@ -10,18 +10,18 @@ use crate::stereo::PointCloud;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Joins depth maps to one cloud with normals, colors, and confidences, which are numbers of
-/// photos.
+/// Fuses depth maps to a point cloud with normals, colors, and the numbers of photos as
+/// confidences.
 ///
-/// Photo by photo, a pixel and those of the neighbors that agree with it give one point: the mean
-/// of their positions, normals and colors. They give no other point.
+/// Photo by photo, a pixel and the neighbors' pixels that agree with it give one point, with mean
+/// position, normal and color. None of these pixels is used again.
 ///
-/// * `views`, `maps`: as for [`estimate_depth_maps`](super::estimate_depth_maps), and its result
-/// * `monitor`: the one stage is [`Stage::Fusion`]
+/// * `views`, `maps`: input and result of [`estimate_depth_maps`](super::estimate_depth_maps)
+/// * `monitor`: the only stage is [`Stage::Fusion`]
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the maps are not those of the views, [`Error::OutOfRange`] for an
-/// option outside its range, [`Error::Canceled`].
+/// [`Error::SizeMismatch`] if the maps do not match the views, [`Error::OutOfRange`] for an option
+/// outside its range, [`Error::Canceled`].
 ///
 /// Source: Galliani et al. 2015, §5; Schönberger et al. 2016, §4.7.
 #[doc(alias = "stereo_fusion")]
@@ -50,7 +50,7 @@ pub fn fuse_depth_maps(
         let rows: Vec<usize> = (0..maps[photo].depth.height() as usize).collect();
         let [from, to] = [photo, photo + 1].map(|photo| photo as f32 / views.len() as f32);
         let mut part = Part::new(monitor, from, to);
-        // Only other photos use pixels of this one, so that rows are independent.
+        // Only other photos use pixels of this one, so rows are independent.
         let used = &is_used[photo];
         let found = monitored::map(&rows, Stage::Fusion, &mut part, |&row| {
             fusion.row(row, used)
@@ -100,7 +100,7 @@ pub(super) fn check_maps(views: &[MvsView], maps: &[DepthMap]) -> Result<()> {
     Ok(())
 }
 
-/// A point of the cloud, and the pixels of neighbors that it is made of.
+/// A point of the cloud, and the pixels of neighbors fused into it.
 struct Fused {
     point: Point3<f64>,
     normal: Vector3<f64>,
@@ -119,7 +119,7 @@ struct Fusion<'a> {
 }
 
 impl Fusion<'_> {
-    /// Points of a row.
+    /// Returns the points of a row.
     fn row(&self, row: usize, is_used: &[bool]) -> Vec<Fused> {
         let map = &self.maps[self.photo];
         let width = map.depth.width() as usize;
@@ -142,7 +142,7 @@ impl Fusion<'_> {
         points
     }
 
-    /// Mean of a pixel and those that agree with it.
+    /// Returns the mean of a pixel and those that agree with it.
     fn mean(&self, pixel: usize, members: Vec<(usize, usize)>) -> Fused {
         let (mut point, mut normal, mut color) = (Vector3::zeros(), Vector3::zeros(), [0.0f64; 3]);
         for &(photo, pixel) in std::iter::once(&(self.photo, pixel)).chain(&members) {

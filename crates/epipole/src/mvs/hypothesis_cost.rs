@@ -8,11 +8,11 @@ use super::patch::{GrayWeights, Patch, dissimilarity};
 use super::plane::{MIN_COSINE, Plane};
 use nalgebra::Point2;
 
-/// Cost in a neighbor that does not see the point; a little more than that of no correlation.
+/// Cost in a neighbor that does not see the point; slightly more than for no correlation.
 const UNSEEN: f32 = 1.2;
 /// Cost of a pixel of reprojection error.
 const PER_PX: f32 = 0.2;
-/// Reprojection error beyond which the cost does not grow, pixels.
+/// Maximum reprojection error in the cost, pixels.
 const MAX_ERROR_PX: f32 = 3.0;
 
 /// A neighbor at one resolution.
@@ -20,7 +20,7 @@ pub(super) struct Neighbor<'a> {
     pub(super) level: &'a Level,
     pub(super) to: Pair,
     pub(super) from: Pair,
-    /// Surface of the pass before, for geometric consistency, and its relative resolution.
+    /// Surface of the previous pass, for geometric consistency, and its relative resolution.
     pub(super) surface: Option<(&'a Surface, [f32; 2])>,
 }
 
@@ -28,14 +28,14 @@ pub(super) struct Neighbor<'a> {
 pub(super) struct Matching<'a> {
     pub(super) level: &'a Level,
     pub(super) neighbors: Vec<Neighbor<'a>>,
-    /// Number of neighbors that count at a pixel.
+    /// Number of neighbors used per pixel.
     pub(super) num_best: usize,
-    /// Smallest and largest inverse depth.
+    /// Minimum and maximum inverse depth.
     pub(super) range: [f32; 2],
     pub(super) gray_weights: GrayWeights,
 }
 
-/// Parts of the cost that all planes at a pixel share.
+/// Parts of the cost common to all planes at a pixel.
 pub(super) struct PixelCost {
     patch: Patch,
     pub(super) ray: [f64; 3],
@@ -63,7 +63,7 @@ impl Matching<'_> {
         }
     }
 
-    /// Whether a plane is within the range of depths and not seen too flat.
+    /// Returns whether a plane is within the depth range and not at too grazing an angle.
     pub(super) fn is_possible(&self, pixel: &PixelCost, plane: Plane) -> bool {
         let w = plane.inverse_depth;
         if !(w >= self.range[0] && w <= self.range[1]) {
@@ -77,7 +77,7 @@ impl Matching<'_> {
         cosine_sq >= MIN_COSINE * MIN_COSINE
     }
 
-    /// Mean cost in the neighbors that fit best, and these, a bit each.
+    /// Returns the mean cost in the best neighbors, and these as a bit mask.
     pub(super) fn of_best(&self, pixel: &PixelCost, plane: Plane) -> (f32, u32) {
         let mut costs = [(UNSEEN, 0); MAX_NEIGHBORS];
         let count = self.neighbors.len();
@@ -91,7 +91,7 @@ impl Matching<'_> {
         (total / best.len() as f32, views)
     }
 
-    /// Mean cost in the given neighbors; infinite once it is above `limit`.
+    /// Returns the mean cost in the given neighbors; infinite above `limit`.
     pub(super) fn of_views(&self, pixel: &PixelCost, plane: Plane, views: u32, limit: f32) -> f32 {
         let count = views.count_ones() as f32;
         let (mut total, mut left) = (0.0, views);
@@ -125,7 +125,8 @@ impl Matching<'_> {
         }
     }
 
-    /// Error of a pixel that goes to a neighbor at (x, y) and back by the neighbor's surface.
+    /// Returns the error of a pixel transferred to (x, y) of a neighbor and back by the neighbor's
+    /// surface.
     fn error_px(&self, pixel: &PixelCost, neighbor: &Neighbor<'_>, x: f32, y: f32) -> f32 {
         let Some((surface, scale)) = neighbor.surface else {
             return 0.0;

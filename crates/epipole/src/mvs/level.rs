@@ -5,7 +5,7 @@ use crate::Result;
 use crate::camera::{Camera, PosedCamera};
 use crate::imaging::{GrayImage32, gray_to_u8, resize};
 
-/// Longer side up to which a photo is matched from random hypotheses, pixels.
+/// Maximum longer side of photos matched from random hypotheses, pixels.
 const COARSEST_PX: u32 = 600;
 
 /// A photo at one resolution.
@@ -14,12 +14,12 @@ pub(super) struct Level {
     pub(super) camera: PosedCamera,
     pub(super) width: usize,
     pub(super) height: usize,
-    /// Gray values of each pixel and those to its right, below and across, from the lowest byte
-    /// on: what a bilinear sample reads. The border repeats.
+    /// Gray values of each pixel and its neighbors to the right, below and diagonal, from the
+    /// lowest byte upwards, for bilinear sampling. Border pixels are repeated outside.
     pub(super) quads: Vec<u32>,
 }
 
-/// Number of resolutions, each half of the next.
+/// Returns the number of resolutions, each half of the next.
 pub(super) fn num_levels(views: &[MvsView]) -> usize {
     let longest = |view: &MvsView| view.image.width().max(view.image.height());
     let longest = views.iter().map(longest).max().unwrap_or(0);
@@ -30,8 +30,8 @@ pub(super) fn num_levels(views: &[MvsView]) -> usize {
 }
 
 impl Level {
-    /// * `gray`: of the full resolution
-    /// * `halvings`: how often the size is halved
+    /// * `gray`: image at full resolution
+    /// * `halvings`: number of times the size is halved
     ///
     /// # Errors
     /// As [`resize`], for a photo without pixels.
@@ -64,7 +64,7 @@ impl Level {
         })
     }
 
-    /// Gray value of a pixel, 0 to 255; outside, that of the border.
+    /// Returns the gray value of a pixel, 0 to 255; border pixels are repeated outside.
     #[inline(always)]
     pub(super) fn gray(&self, u: isize, v: isize) -> u8 {
         let column = u.clamp(0, self.width as isize - 1) as usize;
@@ -72,7 +72,7 @@ impl Level {
         self.quads[row * self.width + column] as u8
     }
 
-    /// Whether a place is within the image.
+    /// Returns whether a position is within the image.
     #[inline(always)]
     pub(super) fn contains(&self, x: f32, y: f32) -> bool {
         x >= 0.0 && y >= 0.0 && x <= self.width as f32 - 1.0 && y <= self.height as f32 - 1.0

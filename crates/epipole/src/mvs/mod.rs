@@ -1,12 +1,11 @@
-//! Multi-view stereo: dense depth maps and one point cloud from photos with known cameras.
+//! Multi-view stereo: dense depth maps, point clouds and meshes from photos with known cameras.
 //!
-//! 1. [`prepare_views`] removes the distortion of the photos of a
-//!    [`Reconstruction`](crate::sfm::Reconstruction), downscales them, and chooses the neighbors
-//!    and the depth range of each: an [`MvsView`].
-//! 2. [`estimate_depth_maps`] finds a depth and a normal for each pixel by PatchMatch, from coarse
-//!    to fine, and keeps those that neighbors confirm: a [`DepthMap`].
-//! 3. [`fuse_depth_maps`] joins them to one cloud with normals, colors and confidences,
-//!    [`mesh_depth_maps`] to a surface of triangles: a [`Mesh`].
+//! 1. [`prepare_views`] undistorts the photos of a [`Reconstruction`](crate::sfm::Reconstruction),
+//!   downscales them, and chooses the neighbors and the depth range of each: an [`MvsView`].
+//! 2. [`estimate_depth_maps`] estimates a depth and a normal for each pixel by PatchMatch, coarse
+//!   to fine, and keeps those that neighbors confirm: a [`DepthMap`].
+//! 3. [`fuse_depth_maps`] fuses them to a point cloud with normals, colors and confidences,
+//!   [`mesh_depth_maps`] to a triangle mesh: a [`Mesh`].
 //!
 //! ```
 //! # fn main() -> Result<(), epipole::Error> {
@@ -16,7 +15,7 @@
 //! use epipole::mvs::{estimate_depth_maps, fuse_depth_maps, mesh_depth_maps};
 //! use epipole::nalgebra::Point3;
 //! use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
-//! // A wall at a depth of 2, seen from places that are 0.1 apart: f B / Z = 5 pixels.
+//! // A wall at a depth of 2, seen from positions 0.1 apart: f B / Z = 5 pixels.
 //! let wall = |u: u32, v: u32| {
 //!     let (u, v) = (f64::from(u), f64::from(v));
 //!     let waves = libm::sin(0.61 * u + 0.13 * v) + libm::sin(0.29 * u - 0.47 * v)

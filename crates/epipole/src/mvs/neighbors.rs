@@ -1,4 +1,4 @@
-//! Choice of neighbors and depth ranges from the points of a reconstruction.
+//! Selection of neighbors and depth ranges from the points of a reconstruction.
 
 use super::options::MvsOptions;
 use crate::camera::PosedCamera;
@@ -8,25 +8,25 @@ use std::collections::BTreeMap;
 
 /// Angle above which rays determine depth well, degrees. Goesele et al. 2007, §4.1.
 const GOOD_ANGLE_DEG: f64 = 10.0;
-/// Angle above which surfaces look less and less alike, degrees.
+/// Angle above which surfaces look increasingly different, degrees.
 const WIDE_ANGLE_DEG: f64 = 25.0;
-/// Share of the points of a photo that its depth range leaves out at either end.
+/// Fraction of a photo's points excluded from the depth range at either end.
 const OUTSIDE: f64 = 0.005;
-/// Factors of the nearest and the farthest depth.
+/// Factors on the minimum and maximum depth.
 const MARGINS: [f64; 2] = [0.75, 1.5];
 
-/// Points that two photos share.
+/// Common points of two photos.
 #[derive(Debug, Clone, Copy, Default)]
 struct Shared {
-    /// Score of the second photo for the first, and the other way round.
+    /// Score of the second photo for the first, and vice versa.
     scores: [f64; 2],
     num_points: usize,
     /// Number of points seen under a sufficient angle.
     num_angled: usize,
 }
 
-/// Neighbors of each photo, best first: those with many shared points under a good angle and of
-/// similar resolution.
+/// Chooses the neighbors of each photo, best first: those with many common points at good angles
+/// and of similar resolution.
 ///
 /// Source: Goesele et al. 2007, "Multi-view stereo for community photo collections", §4.1.
 pub(super) fn choose_neighbors(
@@ -71,16 +71,16 @@ pub(super) fn choose_neighbors(
     scored.into_iter().map(best).collect()
 }
 
-/// A point as a photo sees it.
+/// A point seen by a photo.
 #[derive(Debug, Clone, Copy)]
 struct Sight {
     direction: nalgebra::Vector3<f64>,
-    /// Length in the world of a pixel.
+    /// Size of a pixel in the world.
     pixel_size: f64,
 }
 
 impl Sight {
-    /// `None` behind the camera.
+    /// Returns `None` behind the camera.
     fn new(camera: &PosedCamera, point: &Point3<f64>) -> Option<Self> {
         let depth = (camera.cam_from_world * point).z;
         let direction = (point - camera.center_in_world()).try_normalize(0.0)?;
@@ -115,7 +115,7 @@ fn resolution_weight(ratio: f64) -> f64 {
     }
 }
 
-/// Range of depths of a photo's points, with a margin; `None` if it sees none.
+/// Returns the depth range of a photo's points, with a margin; `None` if it sees none.
 pub(super) fn depth_range(reconstruction: &Reconstruction, photo: usize) -> Option<[f64; 2]> {
     let camera = reconstruction.cameras[photo].as_ref()?;
     let is_seen = |point: &&crate::sfm::ScenePoint| {

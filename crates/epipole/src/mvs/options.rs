@@ -16,28 +16,28 @@ pub(super) const MAX_NEIGHBORS: usize = 16;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct MvsOptions {
-    /// Longer side that larger photos are downscaled to, pixels; at least 32. 2048.
+    /// Maximum longer side of photos, pixels; larger ones are downscaled. At least 32. 2048.
     pub max_size_px: u32,
-    /// Number of neighbors that each photo is compared with, 1 to 16. 6.
+    /// Number of neighbors with which each photo is compared, 1 to 16. 6.
     pub num_neighbors: usize,
-    /// Number of neighbors that count at a pixel, those that fit best; at least 1. 3.
+    /// Number of neighbors used per pixel, the best ones; at least 1. 3.
     pub num_best_neighbors: usize,
-    /// Smallest angle between the rays of two photos at their shared points, in the median, for
-    /// them to be neighbors, degrees. 1.
+    /// Minimum angle between the rays of two neighboring photos, the median over their common
+    /// points, degrees. 1.
     pub min_angle_deg: f64,
     /// Number of rounds of propagation at each resolution after the coarsest, at least 1. 1.
     pub num_rounds: usize,
-    /// Smallest weighted correlation of a depth that is kept, −1 to 1. 0.3.
+    /// Minimum weighted correlation of a depth, −1 to 1. 0.3.
     pub min_correlation: f64,
-    /// Fewest photos that agree on a depth, the photo itself among them; where a photo has fewer
-    /// neighbors, all of them. At least 2. 3.
+    /// Minimum number of photos that agree on a depth, including the photo itself; if a photo has
+    /// fewer neighbors, all of them. At least 2. 3.
     pub min_views: usize,
-    /// Largest error of a pixel that goes to a neighbor by its depth and back by the neighbor's,
+    /// Maximum error of a pixel transferred to a neighbor by its depth and back by the neighbor's,
     /// pixels, greater than 0. 1.
     pub max_reprojection_error_px: f64,
-    /// Largest difference between the depths of two photos that agree, relative. 0.01.
+    /// Maximum relative difference between the depths of two photos that agree. 0.01.
     pub max_depth_difference: f64,
-    /// Largest angle between the normals of two photos that agree, degrees. 30.
+    /// Maximum angle between the normals of two photos that agree, degrees. 30.
     pub max_normal_angle_deg: f64,
     /// Equal seeds give equal results. 0.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! From the pixels of a photo to those of a neighbor.
+//! Transfer of pixels from a photo to a neighbor.
 
 use super::plane::Plane;
 use crate::camera::{PosedCamera, relative_motion};
@@ -11,15 +11,15 @@ pub(super) struct Pair {
     of_ray: [[f64; 3]; 3],
     /// b.
     of_inverse_depth: [f64; 3],
-    /// Pixels that the image moves per unit of inverse depth, in the middle.
+    /// Image motion per unit of inverse depth, in the middle, pixels.
     pub(super) px_per_inverse_depth: f64,
 }
 
-/// Depth per depth in the other photo below which a point counts as behind the camera.
+/// Minimum depth relative to that in the other photo; below it a point counts as behind the camera.
 const MIN_DEPTH: f64 = 1e-9;
 
-/// Image of a small piece of a plane: its middle, and pixels there per pixel here,
-/// `[∂x/∂u, ∂x/∂v, ∂y/∂u, ∂y/∂v]`.
+/// Transfer of a small piece of a plane: its middle, and the Jacobian between pixels, `[∂x/∂u,
+/// ∂x/∂v, ∂y/∂u, ∂y/∂v]`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Affine {
     pub(super) center: [f32; 2],
@@ -27,7 +27,7 @@ pub(super) struct Affine {
 }
 
 impl Pair {
-    /// Both cameras without distortion.
+    /// Creates the transfer between two cameras without distortion.
     pub(super) fn new(from: &PosedCamera, to: &PosedCamera) -> Self {
         let motion = relative_motion(&from.cam_from_world, &to.cam_from_world);
         let k = to.camera.intrinsics.matrix();
@@ -40,7 +40,7 @@ impl Pair {
         }
     }
 
-    /// `A (u, v, 1)`.
+    /// Returns `A (u, v, 1)`.
     #[inline(always)]
     pub(super) fn of_pixel(&self, u: f64, v: f64) -> [f64; 3] {
         let a = &self.of_ray;
@@ -51,8 +51,8 @@ impl Pair {
         ]
     }
 
-    /// Pixel and inverse depth of a point at `of_pixel` and an inverse depth; `None` behind the
-    /// camera.
+    /// Returns the pixel and inverse depth of a point given by `of_pixel` and an inverse depth;
+    /// `None` behind the camera.
     #[inline(always)]
     pub(super) fn transfer(&self, of_pixel: &[f64; 3], inverse_depth: f64) -> Option<[f64; 3]> {
         let b = &self.of_inverse_depth;
@@ -66,7 +66,7 @@ impl Pair {
         Some([x, y, inverse_depth * scale])
     }
 
-    /// Image of a piece of a plane; `None` behind the camera.
+    /// Returns the transfer of a piece of a plane; `None` behind the camera.
     #[inline(always)]
     pub(super) fn affine(&self, of_pixel: &[f64; 3], plane: Plane) -> Option<Affine> {
         let (a, b) = (&self.of_ray, &self.of_inverse_depth);

@@ -1,4 +1,4 @@
-//! Photo-consistency: weighted correlation of a patch with its image in a neighbor.
+//! Photo-consistency: weighted correlation of a patch with its projection in a neighbor.
 
 use super::level::Level;
 use super::pair::Affine;
@@ -9,12 +9,12 @@ const LEN: usize = 32;
 const LANES: usize = 8;
 /// Standard deviation of the weight by distance, pixels.
 const SIGMA_PX: f32 = 5.0;
-/// Standard deviation of the weight by difference of gray values.
+/// Standard deviation of the weight by gray difference.
 const SIGMA_GRAY: f32 = 30.0;
-/// Variance of gray values that noise and rounding cause; it makes flat patches fit nothing.
+/// Gray variance due to noise and rounding; with it, flat patches fit nothing.
 const NOISE: f32 = 3.0;
 
-/// Every other pixel of 11 × 11, without the corners: columns and rows from the middle.
+/// Every other pixel of 11 × 11, without the corners: columns and rows relative to the middle.
 const OFFSETS: [[f32; LEN]; 2] = offsets();
 
 const fn offsets() -> [[f32; LEN]; 2] {
@@ -35,7 +35,7 @@ const fn offsets() -> [[f32; LEN]; 2] {
     offsets
 }
 
-/// Weights of samples by their place, of any sum.
+/// Weights of samples by position, not normalized.
 const PLACES: [f32; LEN] = places();
 
 const fn places() -> [f32; LEN] {
@@ -43,7 +43,7 @@ const fn places() -> [f32; LEN] {
     let mut k = 0;
     while k < LEN {
         let [u, v] = [OFFSETS[0][k], OFFSETS[1][k]];
-        // 1/(1 + t + t²/2) is exp(−t) to a few percent, and constant functions have no exp.
+        // 1/(1 + t + t²/2) equals exp(−t) to a few percent, and `exp` is not `const`.
         let t = 0.5 * (u * u + v * v) / (SIGMA_PX * SIGMA_PX);
         places[k] = 1.0 / (1.0 + t + 0.5 * t * t);
         k += 1;
@@ -51,7 +51,7 @@ const fn places() -> [f32; LEN] {
     places
 }
 
-/// Weight of a difference of gray values.
+/// Weights by gray difference.
 pub(super) type GrayWeights = [f32; 256];
 
 pub(super) fn gray_weights() -> GrayWeights {
@@ -64,7 +64,7 @@ pub(super) fn gray_weights() -> GrayWeights {
 /// Samples around a pixel.
 #[derive(Debug, Clone)]
 pub(super) struct Patch {
-    /// Weights, of sum 1.
+    /// Weights, with sum 1.
     weights: [f32; LEN],
     /// Weighted differences from the mean.
     differences: [f32; LEN],
@@ -111,7 +111,7 @@ dispatched! {
     }
 }
 
-/// Sum in a fixed order that vectors have.
+/// Sums in a fixed order that suits vector instructions.
 #[inline(always)]
 fn sum(values: &[f32; LEN]) -> f32 {
     let mut lanes = [0.0f32; LANES];
@@ -122,11 +122,11 @@ fn sum(values: &[f32; LEN]) -> f32 {
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// From here to twice as much, floats are the whole numbers.
+/// Between this number and its double, floats are the integers.
 const WHOLE: f32 = 8_388_608.0;
 
-/// A coordinate moved into `0..=last`: the part behind the point, and the whole number, by steps
-/// that vectors have.
+/// Clamps a coordinate to `0..=last` and splits it into fraction and integer, by operations that
+/// vectorize.
 #[inline(always)]
 fn split(x: f32, last: f32) -> (f32, u32) {
     let x = if x > 0.0 { x } else { 0.0 };
@@ -137,13 +137,13 @@ fn split(x: f32, last: f32) -> (f32, u32) {
 }
 
 dispatched! {
-    /// One minus the weighted correlation of a patch with its affine image in `other`, 0 to 2.
-    /// Pixels outside of the image have the values of its border.
+    /// Returns one minus the weighted correlation of a patch with its affine projection in `other`,
+    /// 0 to 2. Border pixels are repeated outside the image.
     pub(super) fn dissimilarity(patch: &Patch, other: &Level, at: &Affine) -> f32 {
         let [us, vs] = &OFFSETS;
         let (last_x, last_y) = (other.width as f32 - 1.0, other.height as f32 - 1.0);
         let ([x0, y0], [xu, xv, yu, yv]) = (at.center, at.matrix);
-        // Wrapping, because vectors cannot check for overflow.
+        // Wrapping, as vectorized code cannot check for overflow.
         let width = other.width as u32;
         let (mut places, mut fu, mut fv) = ([0u32; LEN], [0.0f32; LEN], [0.0f32; LEN]);
         for k in 0..LEN {
@@ -163,7 +163,8 @@ dispatched! {
             let (a, b, c, d) = (byte(0), byte(8), byte(16), byte(24));
             let top = a + fu[k] * (b - a);
             let bottom = c + fu[k] * (d - c);
-            // The mean here is near the mean there, which keeps digits of the variance.
+            // The means are similar in both images, so subtracting this one preserves the
+            // variance's precision.
             let value = top + fv[k] * (bottom - top) - patch.mean;
             let weighted = patch.weights[k] * value;
             means[k] = weighted;

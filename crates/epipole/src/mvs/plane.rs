@@ -1,10 +1,10 @@
-//! Planes as inverse depths that are linear in pixels.
+//! Planes as linear functions of the pixel that give the inverse depth.
 
 use crate::camera::Intrinsics;
 use nalgebra::{Point2, Vector3};
 
-/// A plane through the surface at a pixel: the inverse depth there and its change per pixel. By a
-/// camera without distortion the inverse depth of any plane is linear in the pixel.
+/// A plane through the surface at a pixel: the inverse depth there and its change per pixel. For an
+/// undistorted camera the inverse depth of any plane is linear in the pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Plane {
     /// Inverse depth at the pixel, > 0.
@@ -15,11 +15,11 @@ pub(super) struct Plane {
     pub(super) dv: f32,
 }
 
-/// Cosine of the largest angle between a normal and the ray: surfaces seen flatter fit anything.
+/// Minimum cosine between normal and ray: at more grazing angles surfaces fit anything.
 pub(super) const MIN_COSINE: f64 = 0.15;
 
 impl Plane {
-    /// The same plane at another pixel, by its distance.
+    /// Returns the same plane at another pixel, by its offset.
     #[inline(always)]
     pub(super) fn moved(self, du: f32, dv: f32) -> Self {
         Self {
@@ -28,7 +28,7 @@ impl Plane {
         }
     }
 
-    /// * `normal`: towards the camera, in its frame, any length: `n · ray < 0`
+    /// * `normal`: towards the camera, in its frame, of any length: `n · ray < 0`
     pub(super) fn from_normal(
         intrinsics: &Intrinsics,
         ray: &Vector3<f64>,
@@ -44,9 +44,9 @@ impl Plane {
         }
     }
 
-    /// Unit normal towards the camera, in its frame.
+    /// Returns the unit normal towards the camera, in its frame.
     ///
-    /// * `pixel`: of the plane
+    /// * `pixel`: pixel of the plane
     pub(super) fn normal(&self, intrinsics: &Intrinsics, pixel: &Point2<f64>) -> Vector3<f64> {
         let ray = intrinsics.ray(pixel);
         let x = f64::from(self.du) * intrinsics.fu_px();

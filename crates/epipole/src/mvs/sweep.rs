@@ -1,4 +1,4 @@
-//! PatchMatch: propagation of planes between neighboring pixels, and refinement by random changes.
+//! PatchMatch: propagation of planes between neighboring pixels, and random refinement.
 
 use super::field::{Field, Hypothesis, Surface, row_len};
 use super::hypothesis_cost::{Matching, PixelCost};
@@ -12,8 +12,8 @@ use nalgebra::{Point2, Vector3};
 /// Number of pixels between two reports.
 const BAND: usize = 1 << 13;
 
-/// Places that planes come from, by direction; all are of the other color. Of each direction the
-/// plane with the lowest cost is tried: Xu & Tao 2019, §3.1.
+/// Positions from which planes are propagated, by direction; all of the other color. In each
+/// direction the plane with the lowest cost is tried: Xu & Tao 2019, §3.1.
 const SOURCES: [[[isize; 2]; 7]; 4] = {
     let mut sources = [[[0; 2]; 7]; 4];
     let ahead = [[0, 1], [-1, 2], [1, 2], [0, 3], [0, 5], [0, 7], [0, 11]];
@@ -29,33 +29,33 @@ const SOURCES: [[[isize; 2]; 7]; 4] = {
     sources
 };
 
-/// A plane that moves the image in no neighbor by this much, pixels, is not tried again.
+/// Minimum motion of the image in some neighbor for a plane to be tried, pixels.
 const SAME_PX: f32 = 0.03;
-/// Distance at which planes are compared, pixels: the border of a patch.
+/// Distance at which planes are compared, pixels: that of the patch's border.
 const REACH_PX: f32 = 5.0;
 
-/// Random changes of one round.
+/// Random perturbations of one round.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Round {
-    /// Largest change of the inverse depth.
+    /// Maximum change of the inverse depth.
     pub(super) inverse_depth: f64,
-    /// Largest change of a unit normal.
+    /// Maximum change of a unit normal.
     pub(super) normal: f64,
-    /// Whether a plane with any normal is tried, too.
+    /// Whether to try a plane with a random normal as well.
     pub(super) is_wild: bool,
-    /// Whether the neighbors that count are chosen for each plane, or kept.
+    /// Whether the best neighbors are chosen for each plane, or kept.
     pub(super) chooses_views: bool,
 }
 
 /// A pass over one photo.
 pub(super) struct Pass<'a> {
     pub(super) matching: &'a Matching<'a>,
-    /// Differs between photos and passes.
+    /// Seed that differs between photos and passes.
     pub(super) seed: u64,
 }
 
 impl Pass<'_> {
-    /// Calls `update` with the pixel and hypothesis of each pixel of a color, rows side by side.
+    /// Calls `update` with the pixel and hypothesis of each pixel of a color, rows in parallel.
     fn for_each_pixel(
         &self,
         hypotheses: &mut [Hypothesis],
@@ -87,7 +87,7 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// Planes from a surface, or random ones, with their costs.
+    /// Initializes planes from a surface, or at random, with their costs.
     ///
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
@@ -114,7 +114,7 @@ impl Pass<'_> {
         Ok(field)
     }
 
-    /// The plane of a coarser surface.
+    /// Returns the plane of a coarser surface.
     fn continued(&self, surface: &Surface, u: usize, v: usize) -> Plane {
         let scale = surface.scale(self.matching.level);
         let plane = surface.plane_at(u as f32, v as f32, scale);
@@ -126,7 +126,7 @@ impl Pass<'_> {
         }
     }
 
-    /// One round: propagation to both colors, and refinement.
+    /// Runs one round: propagation to both colors, and refinement.
     ///
     /// # Errors
     /// [`Error::Canceled`](crate::Error::Canceled).
@@ -169,27 +169,27 @@ impl Pass<'_> {
         Ok(())
     }
 
-    /// A plane of any depth and normal.
+    /// Returns a plane of random depth and normal.
     fn random_plane(&self, pixel: &PixelCost, random: &mut Random) -> Plane {
         let [low, high] = self.matching.range.map(f64::from);
         let inverse_depth = random.uniform(low, high);
         self.facing(pixel, inverse_depth, &random_vector(random))
     }
 
-    /// A plane with a normal turned towards the camera, or facing it if that is seen too flat.
+    /// Returns a plane with a normal towards the camera; frontal if the angle is too grazing.
     fn facing(&self, pixel: &PixelCost, inverse_depth: f64, normal: &Vector3<f64>) -> Plane {
         let ray = Vector3::from(pixel.ray);
         let along = normal.dot(&ray);
         let is_flat =
             along * along < MIN_COSINE * MIN_COSINE * normal.norm_squared() * ray.norm_squared();
-        // The sign of a normal has no influence on its plane.
+        // The sign of a normal does not affect its plane.
         let normal = if is_flat { ray } else { *normal };
         let k = &self.matching.level.camera.camera.intrinsics;
         Plane::from_normal(k, &ray, inverse_depth, &normal)
     }
 }
 
-/// The plane of the lowest cost at some places, moved to a pixel.
+/// Returns the plane of the lowest cost at some positions, moved to a pixel.
 fn cheapest(
     others: &[Hypothesis],
     (width, height): (usize, usize),
@@ -221,7 +221,7 @@ struct Tested<'a> {
 }
 
 impl Tested<'_> {
-    /// Takes a plane if it costs less.
+    /// Accepts a plane if it costs less.
     fn propose(&mut self, plane: Plane) {
         let matching = self.pass.matching;
         if self.is_same(plane) || !matching.is_possible(self.pixel, plane) {
@@ -240,7 +240,7 @@ impl Tested<'_> {
         }
     }
 
-    /// Whether a plane moves no pixel of the patch noticeably.
+    /// Returns whether a plane moves no pixel of the patch noticeably.
     fn is_same(&self, plane: Plane) -> bool {
         let best = self.best.plane;
         let change = (plane.inverse_depth - best.inverse_depth).abs()
@@ -250,7 +250,7 @@ impl Tested<'_> {
         change * most.fold(0.0, f64::max) as f32 <= SAME_PX
     }
 
-    /// Tries random changes of the depth, of the normal, and of both.
+    /// Tries random perturbations of the depth, of the normal, and of both.
     fn refine(&mut self, random: &mut Random) {
         let round = self.round;
         let k = &self.pass.matching.level.camera.camera.intrinsics;
@@ -262,7 +262,7 @@ impl Tested<'_> {
             self.propose(plane);
         }
         let plane = self.best.plane;
-        // The normal stays: slopes scale with the inverse depth.
+        // The normal is unchanged: slopes scale with the inverse depth.
         let depth = f64::from(plane.inverse_depth) + change(random);
         let factor = (depth / f64::from(plane.inverse_depth)) as f32;
         self.propose(Plane {
@@ -277,7 +277,7 @@ impl Tested<'_> {
     }
 }
 
-/// A vector within the unit ball, not zero, each direction equally likely.
+/// Returns a random nonzero vector within the unit ball, uniform in direction.
 fn random_vector(random: &mut Random) -> Vector3<f64> {
     loop {
         let vector = Vector3::from_fn(|_, _| random.uniform(-1.0, 1.0));
@@ -288,7 +288,7 @@ fn random_vector(random: &mut Random) -> Vector3<f64> {
     }
 }
 
-/// A seed of its own for each row of each stream.
+/// Returns a distinct seed for each row of each stream.
 pub(super) fn mixed(seed: u64, stream: u64, row: u64) -> u64 {
     // Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators".
     let mut z = seed

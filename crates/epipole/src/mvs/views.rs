@@ -1,4 +1,4 @@
-//! Photos without distortion, with neighbors and depth ranges.
+//! Undistorted photos with neighbors and depth ranges.
 
 use super::neighbors::{choose_neighbors, depth_range};
 use super::options::{MAX_NEIGHBORS, MvsOptions};
@@ -11,23 +11,23 @@ use image::RgbImage;
 use image::imageops::{FilterType, resize};
 use nalgebra::{Point2, Vector3};
 
-/// A photo of multi-view stereo.
+/// An undistorted photo for multi-view stereo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MvsView {
-    /// Index of its image in the reconstruction.
+    /// Index of the image in the reconstruction.
     pub photo: usize,
-    /// Camera without distortion, of the size of the image.
+    /// Camera without distortion, with the size of the image.
     pub camera: PosedCamera,
-    /// Pixels without distortion.
+    /// Undistorted pixels.
     pub image: RgbImage,
-    /// Indices of the views that it is compared with, best first; 1 to 16.
+    /// Indices of the views to compare with, best first; 1 to 16.
     pub neighbors: Vec<usize>,
-    /// Smallest and largest depth that is looked for, in the unit of the reconstruction.
+    /// Minimum and maximum depth to search, in the unit of the reconstruction.
     pub depth_range: [f64; 2],
 }
 
 impl MvsView {
-    /// The ray of a pixel by its index, row by row, at depth 1.
+    /// Returns the ray of a pixel by its index, row by row, at depth 1.
     pub(super) fn ray(&self, pixel: usize) -> Vector3<f64> {
         let width = self.image.width() as usize;
         let (u, v) = ((pixel % width) as f64, (pixel / width) as f64);
@@ -36,18 +36,18 @@ impl MvsView {
 }
 
 /// Undistorts and downscales the photos of a reconstruction, and chooses the neighbors and the
-/// depth range of each by the points that it shows.
+/// depth range of each from its points.
 ///
-/// * `photos`: one for each image of the reconstruction, of the size of its camera; those of images
-///   without a camera are not used
-/// * `monitor`: the one stage is [`Stage::Warping`]
+/// * `photos`: one for each image of the reconstruction, with the size of its camera; those of
+///   images without a camera are ignored
+/// * `monitor`: the only stage is [`Stage::Warping`]
 ///
-/// Photos that share no points with another under a sufficient angle are left out.
+/// Photos without common points with another one at a sufficient angle are left out.
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] for a photo of another size than its camera, or another number of photos
-/// than images; [`Error::TooFew`] for fewer than two images with a camera, or no points;
-/// [`Error::Degenerate`] if no two photos share points under a sufficient angle, and as
+/// [`Error::SizeMismatch`] for a photo with another size than its camera, or another number of
+/// photos than images; [`Error::TooFew`] for fewer than two images with a camera, or no points;
+/// [`Error::Degenerate`] if no two photos have common points at a sufficient angle, and as
 /// [`Undistortion::new`]; [`Error::OutOfRange`] for an option outside its range;
 /// [`Error::Canceled`].
 #[doc(alias = "image_undistorter")]
@@ -153,9 +153,9 @@ fn check_input(reconstruction: &Reconstruction, photos: &[RgbImage]) -> Result<(
     Ok(())
 }
 
-/// A photo downscaled, then without distortion, and its camera.
+/// Downscales a photo, then undistorts it; returns it with its camera.
 ///
-/// * `last`: undistortion of the photo before, which the next one mostly shares
+/// * `last`: undistortion of the previous photo, which usually applies to this one as well
 fn prepare(
     camera: &Camera,
     photo: &RgbImage,
@@ -199,7 +199,7 @@ fn prepare(
     Ok((pinhole, undistorted))
 }
 
-/// Checks views that a caller may have made.
+/// Checks views from a caller.
 pub(super) fn check_views(views: &[MvsView]) -> Result<()> {
     for view in views {
         let camera = &view.camera.camera;

@@ -8,22 +8,22 @@ use crate::{Error, Result};
 use nalgebra::Point3;
 use std::collections::BTreeSet;
 
-/// Voxels along an edge of a block.
+/// Number of voxels along an edge of a block.
 pub(super) const EDGE: usize = 8;
 
-/// Distance from a surface up to which voxels know it, in voxels.
+/// Maximum distance from a surface at which voxels are updated, voxels.
 pub(super) const TRUNCATION: f64 = 3.0;
 
-/// Maximum number of blocks: 2 KB each for the distances, and as much for the colors.
+/// Maximum number of blocks: 2 KB each for the distances, and the same for the colors.
 const MAX_BLOCKS: usize = 250_000;
 
-/// A block by its first voxel, divided by [`EDGE`].
+/// A block, given by its first voxel divided by [`EDGE`].
 pub(super) type Block = [i32; 3];
 
-/// The blocks within the truncation of a pixel's point, in ascending order.
+/// Returns the blocks within the truncation distance of any pixel's point, in ascending order.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for too many of them, [`Error::Canceled`].
+/// [`Error::OutOfRange`] for too many blocks, [`Error::Canceled`].
 pub(super) fn near_surfaces(
     views: &[MvsView],
     maps: &[DepthMap],

@@ -1,4 +1,4 @@
-//! From depth maps to a mesh.
+//! Meshing of depth maps.
 
 use super::super::depth_map::DepthMap;
 use super::super::fusion::check_maps;
@@ -10,22 +10,21 @@ use super::{blocks, pieces, surface_nets};
 use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
 
-/// Shares of the work after which blocks are chosen and distances known.
+/// Progress when the blocks are chosen, and when their distances are computed.
 const CHOSEN: f32 = 0.2;
 const KNOWN: f32 = 0.9;
 
-/// Joins depth maps to a mesh: the zero level of the mean signed distance to their surfaces. It has
-/// holes where no photo sees the surface, and is empty if no piece has
+/// Converts depth maps to a mesh: the zero level of the mean signed distance to their surfaces. The
+/// mesh has holes where no photo sees the surface, and is empty if no piece has
 /// [`MeshOptions::min_triangles`].
 ///
-/// * `views`, `maps`: as for [`estimate_depth_maps`](crate::mvs::estimate_depth_maps), and its
-///   result
-/// * `monitor`: the one stage is [`Stage::Fusion`](crate::progress::Stage::Fusion)
+/// * `views`, `maps`: input and result of [`estimate_depth_maps`](crate::mvs::estimate_depth_maps)
+/// * `monitor`: the only stage is [`Stage::Fusion`](crate::progress::Stage::Fusion)
 ///
 /// # Errors
-/// [`Error::SizeMismatch`] if the maps are not those of the views, [`Error::OutOfRange`] for an
-/// option outside its range, voxels smaller than a quarter of a pixel on the surface or more than
-/// 128 million of them, [`Error::TooFew`] if no pixel has a depth, [`Error::Canceled`].
+/// [`Error::SizeMismatch`] if the maps do not match the views, [`Error::OutOfRange`] for an option
+/// outside its range, voxels smaller than a quarter of a pixel on the surface or more than 128
+/// million of them, [`Error::TooFew`] if no pixel has a depth, [`Error::Canceled`].
 ///
 /// Source: Curless & Levoy 1996, "A volumetric method for building complex models from range
 /// images"; Bylow et al. 2013, "Real-time camera tracking and 3D reconstruction using signed
@@ -65,8 +64,8 @@ pub fn mesh_depth_maps(
     Ok(pieces::without_small(&mesh, options.min_triangles))
 }
 
-/// The size of a pixel on the surface, in the median of the maps' medians; `None` if no pixel has a
-/// depth.
+/// Returns the size of a pixel on the surface, the median of the maps' medians; `None` if no pixel
+/// has a depth.
 fn pixel_footprint(views: &[MvsView], maps: &[DepthMap]) -> Option<f64> {
     let of = |(view, map): (&MvsView, &DepthMap)| {
         let depths = map.depth.as_raw().iter().copied();

@@ -1,4 +1,4 @@
-//! A triangle mesh of the depth maps.
+//! Triangle mesh from depth maps.
 
 mod blocks;
 mod meshing;

@@ -13,12 +13,12 @@ use derive_setters::Setters;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct MeshOptions {
-    /// Edge of a voxel in the unit of the reconstruction, greater than 0; by `voxel_size_px`
-    /// without it. None.
+    /// Edge of a voxel in the unit of the reconstruction, greater than 0; if not set,
+    /// `voxel_size_px` applies. None.
     pub voxel_size: Option<f64>,
-    /// Edge of a voxel as a multiple of a pixel's size on the surface, greater than 0. 1.5.
+    /// Edge of a voxel relative to a pixel's size on the surface, greater than 0. 1.5.
     pub voxel_size_px: f64,
-    /// Fewest triangles of a connected piece that is kept. 100.
+    /// Minimum number of triangles of a connected piece. 100.
     pub min_triangles: usize,
 }
 

@@ -3,7 +3,7 @@
 use super::surface::Mesh;
 use crate::stereo::PointCloud;
 
-/// The mesh without pieces of fewer triangles, and without vertices of none.
+/// Removes pieces with fewer triangles, and vertices without triangles.
 pub(super) fn without_small(mesh: &Mesh, min_triangles: usize) -> Mesh {
     let mut parents: Vec<u32> = (0..mesh.vertices.points.len() as u32).collect();
     for &[a, b, c] in &mesh.triangles {
@@ -40,7 +40,7 @@ fn push(to: &mut PointCloud, from: &PointCloud, vertex: usize) -> u32 {
     to.points.len() as u32 - 1
 }
 
-/// The root of a vertex; shortens the way to it.
+/// Returns the root of a vertex; shortens the path to it.
 fn root(parents: &mut [u32], mut vertex: u32) -> u32 {
     while parents[vertex as usize] != vertex {
         let parent = parents[vertex as usize];

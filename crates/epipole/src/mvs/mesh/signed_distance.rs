@@ -1,4 +1,4 @@
-//! The mean signed distance of voxels to the surfaces of depth maps, positive in front of them.
+//! Mean signed distance of voxels to the surfaces of depth maps, positive in front.
 
 use super::super::depth_map::DepthMap;
 use super::super::views::MvsView;
@@ -8,14 +8,14 @@ use crate::math::monitored;
 use crate::progress::{Monitor, Stage};
 use nalgebra::{Point3, Vector3};
 
-/// Voxels of a block.
+/// Number of voxels of a block.
 const VOLUME: usize = EDGE * EDGE * EDGE;
 
-/// Smallest cosine between ray and normal at which distances count, 73°: beyond it, the plane of a
-/// pixel is no surface a few voxels away.
+/// Minimum cosine between ray and normal, 73°: at more grazing angles, a pixel's plane does not
+/// represent the surface a few voxels away.
 const MIN_COSINE: f64 = 0.3;
 
-/// Distances and colors of the voxels of blocks.
+/// Distances and colors of the voxels in blocks.
 pub(super) struct Field {
     blocks: Vec<Block>,
     cells: Vec<Voxels>,
@@ -24,7 +24,7 @@ pub(super) struct Field {
 
 /// Voxels of a block, x first.
 struct Voxels {
-    /// In voxels, at most the truncation; NaN where no photo tells it.
+    /// Distances in voxels, at most the truncation; NaN if no photo determines them.
     distances: [f32; VOLUME],
     colors: [[u8; 3]; VOLUME],
 }
@@ -32,7 +32,7 @@ struct Voxels {
 /// A voxel.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Voxel {
-    /// Signed distance, in voxels.
+    /// Signed distance, voxels.
     pub(super) distance: f32,
     pub(super) color: [u8; 3],
 }
@@ -63,12 +63,12 @@ impl Field {
         &self.blocks
     }
 
-    /// The position of a voxel, world frame.
+    /// Returns the position of a voxel in the world.
     pub(super) fn position(&self, voxel: [i32; 3]) -> Point3<f64> {
         Point3::from(voxel.map(|index| f64::from(index) * self.voxel_size))
     }
 
-    /// A voxel by its place in the world; `None` where no photo tells its distance.
+    /// Returns a voxel by its integer position; `None` if no photo determines its distance.
     pub(super) fn get(&self, voxel: [i32; 3]) -> Option<Voxel> {
         let edge = EDGE as i32;
         let block = voxel.map(|index| index.div_euclid(edge));
@@ -117,7 +117,7 @@ fn voxels(views: &[MvsView], maps: &[DepthMap], block: &Block, voxel_size: f64) 
     voxels
 }
 
-/// Whether a view may see a part of a ball.
+/// Returns whether a view may see a part of a ball.
 fn sees(view: &MvsView, middle: &Point3<f64>, radius: f64) -> bool {
     let in_cam = view.camera.cam_from_world * middle;
     if in_cam.z <= radius {
@@ -161,7 +161,7 @@ fn add(sums: &mut [Sum; VOLUME], view: &MvsView, map: &DepthMap, block: &Block, 
         if cosine < MIN_COSINE {
             continue;
         }
-        // Along the ray, to tell what the surface hides; to its plane, to be exact.
+        // Along the ray for visibility, to the plane for accuracy.
         let along = (depth - in_cam.z) * surface.norm() / (depth * voxel_size);
         let to_plane = normal.dot(&(in_cam.coords - surface)) / voxel_size;
         if along < -TRUNCATION / cosine || to_plane < -TRUNCATION {

@@ -1,12 +1,12 @@
-//! A surface of triangles.
+//! Triangle meshes.
 
 use crate::stereo::PointCloud;
 
-/// A surface of triangles.
+/// A triangle mesh.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Mesh {
     /// Vertices with normals and colors.
     pub vertices: PointCloud,
-    /// Indices of the vertices, counterclockwise seen from outside.
+    /// Indices of the vertices, counterclockwise as seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }

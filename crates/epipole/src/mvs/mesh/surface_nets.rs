@@ -1,5 +1,5 @@
-//! The zero level of a field of signed distances: a vertex in each cell that it crosses, in the
-//! mean of its crossings of the cell's edges.
+//! Zero level of a signed distance field: one vertex per crossed cell, at the mean of the crossings
+//! of the cell's edges.
 
 use super::blocks::{Block, EDGE};
 use super::signed_distance::{Field, Voxel};
@@ -10,7 +10,7 @@ use crate::progress::{Monitor, Stage};
 use nalgebra::{Point3, Vector3};
 use std::collections::HashMap;
 
-/// Corners at the ends of a cell's edges; bit `axis` of a corner is its place along the axis.
+/// Corners at the ends of a cell's edges; bit `axis` of a corner is its coordinate along the axis.
 const EDGES: [[usize; 2]; 12] = [
     [0, 1],
     [2, 3],
@@ -27,12 +27,13 @@ const EDGES: [[usize; 2]; 12] = [
 ];
 
 struct Vertex {
-    /// The first corner of its cell.
+    /// First corner of the cell.
     cell: [i32; 3],
     point: Point3<f64>,
     normal: Vector3<f64>,
     color: [u8; 3],
-    /// Whether each of the three edges at the first corner crosses the level, and outwards.
+    /// Whether the surface crosses each of the three edges at the first corner, and if so,
+    /// outwards.
     crossings: [Option<bool>; 3],
 }
 
@@ -59,7 +60,7 @@ pub(super) fn extract(field: &Field, monitor: &mut dyn Monitor) -> Result<Mesh> 
     Ok(mesh)
 }
 
-/// The vertices of the cells whose first corner is in a block.
+/// Returns the vertices of the cells whose first corner is in a block.
 fn of_block(field: &Field, block: &Block) -> Vec<Vertex> {
     let first = block.map(|index| index * EDGE as i32);
     let mut vertices = Vec::new();
@@ -106,7 +107,7 @@ fn place(corner: usize) -> Vector3<f64> {
     Vector3::from([0, 1, 2].map(|axis| (corner >> axis & 1) as f64))
 }
 
-/// The mean gradient in a cell.
+/// Returns the mean gradient in a cell.
 fn gradient(corners: &[Voxel; 8]) -> Vector3<f64> {
     let mut sum = Vector3::zeros();
     for [from, to] in EDGES {
@@ -123,8 +124,8 @@ fn color(corners: &[Voxel; 8]) -> [u8; 3] {
     })
 }
 
-/// The four vertices around the edge from the first corner of a cell along an axis,
-/// counterclockwise seen from outside; `None` if one is missing.
+/// Returns the four vertices around the edge from the first corner of a cell along an axis,
+/// counterclockwise as seen from outside; `None` if one is missing.
 fn quad(
     cell: [i32; 3],
     axis: usize,
@@ -144,7 +145,7 @@ fn quad(
     Some(quad)
 }
 
-/// Two triangles, cut along the shorter diagonal.
+/// Returns two triangles, split along the shorter diagonal.
 fn triangles(vertices: &[Vertex], [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     let length = |from: u32, to: u32| {
         nalgebra::distance_squared(&vertices[from as usize].point, &vertices[to as usize].point)
