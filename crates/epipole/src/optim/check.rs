@@ -1,13 +1,13 @@
-//! Jacobians by central differences, to check analytic ones against.
+//! Jacobians by central differences, for checking analytic ones.
 
 use nalgebra::{DMatrix, DVector};
 
-/// The Jacobian of `residuals` with respect to a step from zero, by central differences:
-/// `J[:, j] = (r(h eⱼ) − r(−h eⱼ)) / 2h`.
+/// Computes the Jacobian of `residuals` by a step from zero, by central differences: `J[:, j] =
+/// (r(h eⱼ) − r(−h eⱼ)) / 2h`.
 ///
 /// * `residuals`: the residuals after a step δ; for parameters on a manifold,
 ///   `|δ| r(parameters ⊞ δ)`
-/// * `num_parameters`: the length of δ
+/// * `num_parameters`: length of δ
 /// * `step`: h; 1e-6 suits residuals and parameters around 1
 fn numeric_jacobian(
     residuals: &dyn Fn(&DVector<f64>) -> DVector<f64>,
@@ -28,7 +28,7 @@ fn numeric_jacobian(
     jacobian
 }
 
-/// The largest difference between an analytic Jacobian and one by central differences, each entry
+/// Returns the largest difference between an analytic Jacobian and central differences, each entry
 /// relative to the larger of 1 and its own size.
 ///
 /// * `residuals`: the residuals after a step δ; for parameters on a manifold,

@@ -2,15 +2,15 @@
 
 use crate::math::parallel::for_each_chunk;
 
-/// Columns that are eliminated together; a panel of it stays in the nearest caches.
+/// Number of columns that are eliminated together; a panel of them stays in the caches.
 const BLOCK: usize = 48;
-/// Columns that one pass of the update writes.
+/// Number of columns that one pass of the update writes.
 const LANES: usize = 8;
 
 /// Replaces the lower triangle of the row-major `n × n` matrix `a` by L with `L Lᵀ = A`.
 ///
-/// The upper triangle is never read and may be overwritten. False, with `a` destroyed, unless A
-/// is positive definite.
+/// The upper triangle is never read and may be overwritten. Returns false, with `a` destroyed,
+/// unless A is positive definite.
 pub(crate) fn factorize(a: &mut [f64], n: usize) -> bool {
     let mut panel = Vec::new();
     let mut start = 0;
@@ -26,7 +26,7 @@ pub(crate) fn factorize(a: &mut [f64], n: usize) -> bool {
         }
         let (above, below) = a.split_at_mut(end * n);
         let diagonal = &above[start * n..];
-        // L21 = A21 L11⁻ᵀ, each row on its own.
+        // L21 = A21 L11⁻ᵀ, each row independently.
         for_each_chunk(below, n * 8, |_, rows| {
             for row in rows.chunks_mut(n) {
                 for j in 0..width {
@@ -80,7 +80,7 @@ fn factorize_diagonal_block(a: &mut [f64], n: usize, start: usize, end: usize) -
     true
 }
 
-/// Updates the rows `end + i` and, if there, `end + i + 1` up to their diagonals.
+/// Updates the rows `end + i` and, if it exists, `end + i + 1` up to their diagonals.
 fn update_rows(
     rows: &mut [f64],
     n: usize,
@@ -118,7 +118,7 @@ fn update_rows(
     }
 }
 
-/// Solves `L Lᵀ x = b` in place for a factor made by [`factorize`].
+/// Solves `L Lᵀ x = b` in place for a factor from [`factorize`].
 pub(crate) fn solve(lower: &[f64], n: usize, b: &mut [f64]) {
     for i in 0..n {
         let row = &lower[i * n..i * n + i + 1];

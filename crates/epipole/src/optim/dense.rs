@@ -1,5 +1,5 @@
-//! Problems of any size, dense, solved by QR: slower than normal equations, but it keeps twice as
-//! many digits when parameters are strongly correlated.
+//! Dense problems of any size, solved by QR: slower than normal equations, but with twice as many
+//! digits when parameters are strongly correlated.
 
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{
@@ -15,10 +15,10 @@ pub trait DenseProblem {
     /// The number of scalar residuals.
     fn num_residuals(&self) -> usize;
 
-    /// Writes every residual. One that is not finite makes the loop avoid the place.
+    /// Writes every residual. The solver avoids parameters with residuals that are not finite.
     fn residuals(&self, parameters: &DVector<f64>, residuals: &mut DVector<f64>);
 
-    /// Writes the Jacobian, one row a residual.
+    /// Writes the Jacobian, one row per residual.
     fn jacobian(&self, parameters: &DVector<f64>, jacobian: &mut DMatrix<f64>);
 
     /// The loss of each residual.
@@ -40,8 +40,8 @@ struct DenseSystem<'a> {
     jacobian: DMatrix<f64>,
     weighted_residuals: DVector<f64>,
     gradient: DVector<f64>,
-    /// Squared column norms; a smaller one replaces a larger one only by and by, or the damping
-    /// would vanish as soon as a step lands on a plateau.
+    /// Squared column norms; they decrease only gradually, or the damping would vanish as soon as a
+    /// step lands on a plateau.
     scale: DVector<f64>,
     delta: DVector<f64>,
 }
@@ -131,15 +131,16 @@ impl System for DenseSystem<'_> {
 
 /// Minimizes a [`DenseProblem`] from `parameters`, in place.
 ///
-/// * `monitor`: asked after every iteration
+/// * `monitor`: notified after every iteration
 ///
 /// # Errors
 /// [`Error::TooFew`] without residuals or parameters, [`Error::OutOfRange`] for a loss that
-/// [`RobustLoss::check`] refuses, [`Error::NotFinite`] if the start has no finite cost or gradient.
+/// [`RobustLoss::check`] rejects, [`Error::NotFinite`] if the initial cost or gradient is not
+/// finite.
 ///
 /// Source: Moré 1978, "The Levenberg–Marquardt algorithm: implementation and theory", §3 (the QR
-/// form) and §6 (damping scaled by column norms; there it is the largest seen
-/// so far, here it may fall tenfold in an iteration).
+/// form) and §6 (damping scaled by column norms; there the largest so far, while here it may fall
+/// tenfold per iteration).
 pub fn minimize_dense(
     problem: &dyn DenseProblem,
     parameters: &mut DVector<f64>,

@@ -1,4 +1,4 @@
-//! Problems whose number of parameters is known when compiling: no allocation.
+//! Problems with a compile-time number of parameters: no allocation.
 
 use super::levenberg_marquardt::{
     DampedStep, Linearization, LmOptions, LmReport, System, minimize_visiting,
@@ -10,23 +10,23 @@ use nalgebra::{SMatrix, SVector};
 /// A least-squares problem with `P` degrees of freedom.
 ///
 /// The parameters may live on any manifold (a rotation, a unit vector, a matrix of rank 2): the
-/// problem itself says how a step of `P` numbers moves them.
+/// problem itself defines the effect of a step of `P` numbers.
 pub(crate) trait FixedProblem<const P: usize> {
-    /// The quantities that are estimated.
+    /// The estimated quantities.
     type Parameters: Clone;
 
     /// Adds every residual with its Jacobian, by [`NormalEquations::add`].
     fn accumulate(&self, parameters: &Self::Parameters, normal: &mut NormalEquations<P>);
 
-    /// The cost `½ Σ ρ(‖r‖²)` alone. The sum must be the one that [`accumulate`] makes.
+    /// Returns the cost `½ Σ ρ(‖r‖²)` alone. The sum must be the one that [`accumulate`] makes.
     ///
     /// [`accumulate`]: FixedProblem::accumulate
     fn cost(&self, parameters: &Self::Parameters) -> f64;
 
-    /// `parameters ⊞ delta`.
+    /// Returns `parameters ⊞ delta`.
     fn plus(&self, parameters: &Self::Parameters, delta: &SVector<f64, P>) -> Self::Parameters;
 
-    /// The length of the parameters, for the relative step test.
+    /// Returns the length of the parameters, for the relative step test.
     fn parameter_norm(&self, _parameters: &Self::Parameters) -> f64 {
         1.0
     }
@@ -49,7 +49,7 @@ pub(crate) struct NormalEquations<const P: usize> {
 }
 
 impl<const P: usize> NormalEquations<P> {
-    /// Sums of nothing.
+    /// Creates empty sums.
     pub(crate) fn new() -> Self {
         Self {
             hessian: SMatrix::zeros(),
@@ -101,7 +101,7 @@ impl<const P: usize> NormalEquations<P> {
         );
     }
 
-    /// Adds sums over the nine entries of a matrix, which moves along the columns of D: `DᵀHD` and
+    /// Adds sums over the nine entries of a matrix that moves along the columns of D: `DᵀHD` and
     /// `Dᵀg`.
     pub(crate) fn add_along(
         &mut self,
@@ -118,8 +118,8 @@ impl<const P: usize> NormalEquations<P> {
     }
 }
 
-/// Adds `DᵀHD`, everything column by column. As products of matrices of fixed size it would be
-/// compiled for each number of directions, with all loops rolled out: 13 KB for eight of them.
+/// Adds `DᵀHD`, column by column. Products of fixed-size matrices would be compiled for each number
+/// of directions, with all loops unrolled: 13 KB for eight of them.
 fn add_products(sums: &mut [f64], directions: &[[f64; 9]], columns: &[[f64; 9]]) {
     for (sums, direction) in sums.chunks_exact_mut(directions.len()).zip(directions) {
         // Adding to −0 changes nothing.
@@ -135,7 +135,7 @@ fn add_products(sums: &mut [f64], directions: &[[f64; 9]], columns: &[[f64; 9]])
     }
 }
 
-/// The sum of products, in the order of the entries.
+/// Returns the sum of products, in the order of the entries.
 fn dot(a: &[f64; 9], b: &[f64; 9]) -> f64 {
     a.iter().zip(b).fold(-0.0, |sum, (a, b)| sum + a * b)
 }
@@ -152,8 +152,9 @@ struct FixedSystem<'a, const P: usize, F> {
     delta: SVector<f64, P>,
 }
 
-/// The diagonal entry that damps a parameter: its own curvature, so that the units of parameters
-/// do not matter. A parameter without influence has none; any positive number keeps it in place.
+/// Returns the diagonal entry that damps a parameter: its own curvature, so that the units of
+/// parameters do not matter. A parameter without influence has none; any positive number keeps it
+/// in place.
 #[inline]
 pub(super) fn damping_scale(curvature: f64) -> f64 {
     curvature.max(1e-200)
@@ -176,7 +177,7 @@ impl<const P: usize, F: FixedProblem<P>> System for FixedSystem<'_, P, F> {
         }
         let mut gradient_max: f64 = 0.0;
         for g in self.normal.gradient.iter() {
-            // `max` would swallow a NaN.
+            // `max` would ignore a NaN.
             if !g.is_finite() {
                 gradient_max = f64::NAN;
                 break;
@@ -222,7 +223,7 @@ impl<const P: usize, F: FixedProblem<P>> System for FixedSystem<'_, P, F> {
     }
 }
 
-/// Replaces the lower triangle by L with `L Lᵀ = A`; false unless A is positive definite.
+/// Replaces the lower triangle by L with `L Lᵀ = A`; returns false unless A is positive definite.
 pub(super) fn cholesky_in_place<const P: usize>(a: &mut SMatrix<f64, P, P>) -> bool {
     for j in 0..P {
         for k in 0..j {
@@ -265,7 +266,7 @@ pub(super) fn solve_cholesky_in_place<const P: usize>(
 /// Minimizes a [`FixedProblem`] from `parameters`, in place, without allocating.
 ///
 /// # Errors
-/// [`Error::NotFinite`](crate::Error::NotFinite) if the start has no finite cost or gradient.
+/// [`Error::NotFinite`](crate::Error::NotFinite) if the initial cost or gradient is not finite.
 ///
 /// Source: as [`minimize`](super::minimize).
 pub(crate) fn minimize_fixed<const P: usize, F: FixedProblem<P>>(
@@ -297,7 +298,7 @@ mod tests {
             let gradient = SVector::<f64, 9>::from_fn(|_, _| random.normal());
             let mut normal = NormalEquations::new();
             normal.add_along(&directions, &hessian, &gradient);
-            // To the last bit: the sums have the same order.
+            // Equal to the last bit, as the sums have the same order.
             assert_eq!(normal.gradient, directions.transpose() * gradient);
             assert_eq!(
                 normal.hessian,
@@ -349,7 +350,7 @@ mod tests {
         };
         minimize_fixed(&Rosenbrock { hold_x: true }, &mut p, &options).unwrap();
         assert_eq!(p.x, -1.2);
-        // The cost is 2.42 + 50 (y − 1.44)², so its last bit hides an error of 3e-9 in y.
+        // The cost is 2.42 + 50 (y − 1.44)², so rounding hides an error of 3e-9 in y.
         assert!((p.y - 1.44).abs() < 1e-8);
     }
 

@@ -1,4 +1,4 @@
-//! Problems on a graph: each residual joins two vertices.
+//! Problems on a graph, where each residual joins two vertices.
 
 use super::fixed::damping_scale;
 use super::levenberg_marquardt::{DampedStep, Linearization, System};
@@ -7,15 +7,15 @@ use super::sparse::BlockCholesky;
 use crate::math::parallel::{for_each, sum};
 use nalgebra::{SMatrix, SVector};
 
-/// An edge linearized: the residual of `D` components and its Jacobians with respect to the
-/// vertices at its two ends.
+/// A linearized edge: the residual of `D` components and its Jacobians by the vertices at its two
+/// ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeTerms<const D: usize> {
     /// e.
     pub residual: SVector<f64, D>,
-    /// ∂e/∂δ of the vertex where the edge starts.
+    /// ∂e/∂δ for the start vertex.
     pub from: SMatrix<f64, D, D>,
-    /// ∂e/∂δ of the vertex where the edge ends.
+    /// ∂e/∂δ for the end vertex.
     pub to: SMatrix<f64, D, D>,
 }
 
@@ -25,21 +25,21 @@ pub(crate) trait GraphProblem<const D: usize>: Sync {
     /// All vertices.
     type Parameters: Clone + Sync;
 
-    /// The number of vertices.
+    /// Returns the number of vertices.
     fn num_vertices(&self) -> usize;
-    /// The vertices that each edge joins; both must be in range and differ.
+    /// Returns the vertices that each edge joins; both must be in range and differ.
     fn edges(&self) -> &[(u32, u32)];
-    /// Ω of an edge, symmetric and positive semi-definite.
+    /// Returns Ω of an edge, symmetric and positive semi-definite.
     fn information(&self, edge: usize) -> &SMatrix<f64, D, D>;
     /// The residual of an edge.
     fn residual(&self, parameters: &Self::Parameters, edge: usize) -> SVector<f64, D>;
     /// The residual of an edge with its Jacobians.
     fn linearize(&self, parameters: &Self::Parameters, edge: usize) -> EdgeTerms<D>;
-    /// `from ⊞ step`, with one step a vertex.
+    /// Writes `from ⊞ step`, with one step per vertex.
     fn step(&self, from: &Self::Parameters, step: &[SVector<f64, D>], into: &mut Self::Parameters);
-    /// The length of the parameters, for the relative step test.
+    /// Returns the length of the parameters, for the relative step test.
     fn parameter_norm(&self, parameters: &Self::Parameters) -> f64;
-    /// The loss of every edge, applied to `eᵀ Ω e`.
+    /// Returns the loss of every edge, applied to `eᵀ Ω e`.
     fn loss(&self) -> RobustLoss {
         RobustLoss::Trivial
     }
@@ -47,10 +47,10 @@ pub(crate) trait GraphProblem<const D: usize>: Sync {
     fn is_held(&self, vertex: usize) -> bool;
 }
 
-/// Damping below this changes no bit of a well-conditioned matrix.
+/// Minimum damping: less changes no bit of a well-conditioned matrix.
 const LEAST_DAMPING: f64 = 1e-15;
 
-/// The [`System`] of a [`GraphProblem`]: sparse Cholesky, vertices of least degree first.
+/// The [`System`] of a [`GraphProblem`]: sparse Cholesky in minimum-degree order.
 pub(crate) struct GraphSystem<'a, const D: usize, G: GraphProblem<D>> {
     problem: &'a G,
     terms: Vec<EdgeTerms<D>>,
@@ -62,7 +62,7 @@ pub(crate) struct GraphSystem<'a, const D: usize, G: GraphProblem<D>> {
 }
 
 impl<'a, const D: usize, G: GraphProblem<D>> GraphSystem<'a, D, G> {
-    /// Finds the order of elimination and makes room for all blocks.
+    /// Computes the elimination order and allocates all blocks.
     pub(crate) fn new(problem: &'a G) -> Self {
         let (num_vertices, edges) = (problem.num_vertices(), problem.edges());
         let terms = EdgeTerms {
@@ -137,7 +137,7 @@ impl<const D: usize, G: GraphProblem<D>> System for GraphSystem<'_, D, G> {
         for (vertex, block) in self.diagonal.iter().enumerate() {
             let mut damped = *block;
             for i in 0..D {
-                // A held vertex, or one without edges, stays.
+                // A held vertex, or one without edges, does not move.
                 damped[(i, i)] = if block[(i, i)] > 0.0 {
                     block[(i, i)] + damping * damping_scale(block[(i, i)])
                 } else {

@@ -1,54 +1,54 @@
-//! The Levenberg–Marquardt loop of all refinements.
+//! The Levenberg–Marquardt solver of all refinements.
 
 use crate::progress::{self, Monitor, Stage};
 use crate::{Error, Result};
 use derive_setters::Setters;
 
-/// A problem as the loop sees it: linearize, solve, step, measure.
+/// Interface of a problem to the solver: linearize, solve, step, measure.
 ///
-/// Implementations keep their matrices between calls, so that a loop allocates nothing after its
-/// first iteration.
+/// Implementations keep their matrices between calls, so that nothing is allocated after the first
+/// iteration.
 pub(crate) trait System {
-    /// The quantities that are estimated; any manifold will do.
+    /// The estimated quantities, on any manifold.
     type Parameters: Clone;
 
     /// Builds the normal equations at `parameters` and keeps them.
     fn linearize(&mut self, parameters: &Self::Parameters) -> Linearization;
 
     /// Solves `(JᵀJ + λ D) δ = −Jᵀr` for the last linearization and keeps δ, where λ is `damping`
-    /// and D the diagonal of `JᵀJ`, kept away from 0. `None` if the matrix is not positive
+    /// and D the diagonal of `JᵀJ`, bounded away from 0. `None` if the matrix is not positive
     /// definite.
     fn solve(&mut self, damping: f64) -> Option<DampedStep>;
 
     /// Writes `from ⊞ δ` into `into`.
     fn step(&self, from: &Self::Parameters, into: &mut Self::Parameters);
 
-    /// The robust cost `½ Σ ρ(‖r‖²)` at `parameters`; not finite where the residuals are not
-    /// defined, and then the loop does not go there.
+    /// Returns the robust cost `½ Σ ρ(‖r‖²)` at `parameters`; not finite where residuals are
+    /// undefined, which the solver then avoids.
     fn cost(&mut self, parameters: &Self::Parameters) -> f64;
 }
 
-/// A problem's value and slope where it was linearized.
+/// Cost and gradient of a problem at the point of linearization.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Linearization {
     /// `½ Σ ρ(‖r‖²)`.
     pub cost: f64,
     /// The largest absolute component of `Jᵀr`.
     pub gradient_max: f64,
-    /// The length of the parameters, for a relative step test; 1 where none makes sense.
+    /// Length of the parameters, for a relative step test; 1 if there is none.
     pub parameter_norm: f64,
 }
 
 /// A solution of the damped normal equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct DampedStep {
-    /// Decrease of the cost that the quadratic model predicts: `½ δᵀ(λ D δ − Jᵀr)`.
+    /// Decrease of the cost predicted by the quadratic model: `½ δᵀ(λ D δ − Jᵀr)`.
     pub predicted_decrease: f64,
     /// The length of δ.
     pub norm: f64,
 }
 
-/// When to stop, and how to start.
+/// Options of the Levenberg–Marquardt solver.
 #[derive(Debug, Clone, Copy, PartialEq, Setters)]
 #[cfg_attr(
     feature = "serde",
@@ -60,24 +60,23 @@ pub(crate) struct DampedStep {
 pub struct LmOptions {
     /// Maximum number of steps, including rejected ones.
     pub max_iterations: usize,
-    /// Converged when no component of the gradient is larger.
+    /// Maximum gradient component at convergence.
     pub gradient_tolerance: f64,
-    /// Converged when a step is shorter than this times the parameters' length.
+    /// Maximum step length at convergence, relative to the parameters' length.
     pub step_tolerance: f64,
-    /// Converged when an accepted step lowers the cost by less than this fraction.
+    /// Maximum relative decrease of the cost by an accepted step at convergence.
     pub cost_tolerance: f64,
-    /// The first λ, relative to the diagonal of `JᵀJ`.
+    /// Initial λ, relative to the diagonal of `JᵀJ`.
     pub initial_damping: f64,
-    /// Maximum number of steps in a row that raise the cost before the loop returns to the best
-    /// place and tries smaller ones. 0, a cost that never rises, suits most problems; on pose
-    /// graphs the full step first bends the trajectory and only the next one stretches it into
-    /// place.
+    /// Maximum number of steps in a row that raise the cost before the solver returns to the best
+    /// parameters and tries smaller steps. 0, a cost that never rises, suits most problems; on pose
+    /// graphs the full step first bends the trajectory and only the next one straightens it.
     pub patience: usize,
 }
 
 impl LmOptions {
-    /// A few steps within robust estimation: the next round starts from their result, so they need
-    /// not be exact.
+    /// Returns options for a few steps within robust estimation: the next round continues from
+    /// their result, so it need not be exact.
     pub(crate) fn few_steps(max_iterations: usize) -> Self {
         Self {
             max_iterations,
@@ -104,7 +103,7 @@ impl Default for LmOptions {
 /// One tried step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Iteration {
-    /// Counted from 1; 0 is the start, before any step.
+    /// Number of the iteration, from 1; 0 for the initial state.
     pub index: usize,
     /// The best cost so far.
     pub cost: f64,
@@ -114,23 +113,23 @@ pub struct Iteration {
     pub accepted: bool,
 }
 
-/// Why the loop ended.
+/// Reason why the solver ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Termination {
     /// Converged: the gradient vanished.
     SmallGradient,
-    /// Converged: the step became negligible.
+    /// Converged: the step was negligible.
     SmallStep,
     /// Converged: the cost hardly decreased.
     SmallCostChange,
     /// The maximum number of iterations is reached. The gradient after the last one is not checked.
     MaxIterations,
-    /// No damping gave a usable step: the problem is singular, or not finite around here.
+    /// No damping gave a usable step: the problem is singular, or not finite nearby.
     Stuck,
 }
 
 impl Termination {
-    /// Whether this is one of the three kinds of convergence.
+    /// Returns whether this is one of the three kinds of convergence.
     pub fn is_converged(self) -> bool {
         matches!(
             self,
@@ -139,25 +138,25 @@ impl Termination {
     }
 }
 
-/// Outcome of a minimization.
+/// Report of a minimization.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LmReport {
-    /// The cost of the starting parameters.
+    /// Cost of the initial parameters.
     pub initial_cost: f64,
-    /// The cost of the parameters returned; never larger than the initial cost.
+    /// Cost of the returned parameters; never larger than the initial cost.
     pub final_cost: f64,
-    /// Steps tried.
+    /// Number of steps tried.
     pub iterations: usize,
-    /// Steps kept.
+    /// Number of steps accepted.
     pub accepted: usize,
-    /// Why the loop ended.
+    /// Reason why the solver ended.
     pub termination: Termination,
-    /// The start and every step tried, in order; empty from
+    /// The initial state and every step tried, in order; empty from
     /// [`minimize_fixed`](super::minimize_fixed), which does not allocate.
     pub history: Vec<Iteration>,
 }
 
-/// Beyond this damping a step no longer moves anything.
+/// Maximum damping: with more, steps have no effect.
 const MAX_DAMPING: f64 = 1e24;
 const MIN_DAMPING: f64 = 1e-20;
 
@@ -166,16 +165,16 @@ const MIN_DAMPING: f64 = 1e-20;
 /// Each iteration solves `(JᵀJ + λ D) δ = −Jᵀr` and keeps `parameters ⊞ δ` if the true cost
 /// decreases. The damping λ falls when the quadratic model predicts well and rises otherwise.
 ///
-/// * `monitor`: called before the first step and after each one, in the one stage
+/// * `monitor`: notified before the first step and after each, in the only stage,
 ///   [`Stage::Refinement`]
 ///
 /// # Errors
-/// [`Error::NotFinite`] if the cost or gradient at the start is not finite, [`Error::Canceled`] if
-/// the monitor cancels; `parameters` are then the best found so far.
+/// [`Error::NotFinite`] if the initial cost or gradient is not finite, [`Error::Canceled`] if the
+/// monitor cancels; `parameters` are then the best found so far.
 ///
-/// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter
-/// in Marquardt's method", §3; steps that may raise the cost are the
-/// watchdog technique of Chamberlain, Powell, Lemaréchal & Pedersen 1982.
+/// Source: Levenberg 1944, Marquardt 1963; the update of λ from Nielsen 1999, "Damping parameter in
+/// Marquardt's method", §3; steps that may raise the cost are the watchdog technique of
+/// Chamberlain, Powell, Lemaréchal & Pedersen 1982.
 pub(crate) fn minimize<S: System>(
     system: &mut S,
     parameters: &mut S::Parameters,
@@ -218,7 +217,7 @@ pub(super) fn minimize_visiting<S: System>(
     let mut damping = options.initial_damping.clamp(MIN_DAMPING, MAX_DAMPING);
     let mut raise = 2.0;
     let mut candidate = parameters.clone();
-    // While the cost is above the best: the best place, and how many steps ago it was left.
+    // While the cost is above the best: the best parameters, and the number of steps since.
     let mut best: Option<S::Parameters> = None;
     let mut steps_away = 0;
     let start = Iteration {
@@ -252,7 +251,7 @@ pub(super) fn minimize_visiting<S: System>(
                 converged = Some(Termination::SmallCostChange);
             }
             if improves && (converged.is_some() || report.iterations == options.max_iterations) {
-                // The last step: derivatives there are not needed.
+                // The last step needs no derivatives.
                 std::mem::swap(parameters, &mut candidate);
                 report.final_cost = cost;
                 accepted = true;
@@ -273,7 +272,7 @@ pub(super) fn minimize_visiting<S: System>(
                             converged = Some(Termination::SmallGradient);
                         }
                     } else {
-                        // The place that was left is now in `candidate`.
+                        // The previous parameters are now in `candidate`.
                         best.get_or_insert_with(|| candidate.clone());
                         steps_away += 1;
                     }

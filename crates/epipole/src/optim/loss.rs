@@ -1,10 +1,10 @@
-//! Robust losses: how much a residual may cost.
+//! Robust losses, which bound the influence of residuals.
 
 use crate::{Error, Result};
 
 /// A loss ρ applied to the squared length `s = ‖r‖²` of a residual; the cost is `½ Σ ρ(s)`.
 ///
-/// Every loss behaves as `ρ(s) = s` for small residuals. Its width is where it stops doing so, in
+/// Every loss behaves as `ρ(s) = s` for small residuals. The width is the limit of this range, in
 /// the unit of the residual (pixels for reprojection errors, and so on).
 ///
 /// Source: Triggs, McLauchlan, Hartley & Fitzgibbon 2000, "Bundle adjustment — a modern
@@ -33,12 +33,12 @@ pub enum RobustLoss {
         /// Residuals up to this length count in full.
         width: f64,
     },
-    /// `ρ(s) = w² ln(1 + s/w²)`: outliers matter less and less.
+    /// `ρ(s) = w² ln(1 + s/w²)`: the influence of outliers decreases with distance.
     Cauchy {
-        /// At this length a residual has half its weight.
+        /// Residual length with half the weight.
         width: f64,
     },
-    /// `ρ(s) = min(s, w²)`: outliers cost a constant and pull no more. Its cost is MSAC's.
+    /// `ρ(s) = min(s, w²)`: outliers have a constant cost and no influence. Its cost is MSAC's.
     Truncated {
         /// Residuals longer than this are outliers.
         width: f64,
@@ -46,7 +46,7 @@ pub enum RobustLoss {
 }
 
 impl RobustLoss {
-    /// The loss ρ(s) of a residual with squared length `s`.
+    /// Returns the loss ρ(s) of a residual with squared length `s`.
     #[inline]
     pub fn rho(&self, s: f64) -> f64 {
         match *self {
@@ -63,13 +63,13 @@ impl RobustLoss {
                 width_sq * libm::log1p(s / width_sq)
             }
             RobustLoss::Truncated { width } => {
-                // Written so that a NaN stays a NaN.
+                // Preserves NaN.
                 if s > width * width { width * width } else { s }
             }
         }
     }
 
-    /// The derivative ρ'(s): the factor by which `JᵀJ` and `Jᵀr` of this residual are multiplied.
+    /// Returns the derivative ρ'(s): the weight of this residual in `JᵀJ` and `Jᵀr`.
     #[inline]
     pub fn weight(&self, s: f64) -> f64 {
         match *self {
@@ -92,11 +92,11 @@ impl RobustLoss {
         }
     }
 
-    /// Refuses a width that makes no loss. Everything that takes a loss asks this first.
+    /// Rejects an invalid width. Every function with a loss calls this first.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless the width, if there is one, is greater than 0 and finite. So
-    /// must be its square, which the loss computes with.
+    /// must be its square, which the loss uses.
     ///
     /// ```
     /// use epipole::optim::RobustLoss;

@@ -1,14 +1,14 @@
-//! Nonlinear least squares: one Levenberg–Marquardt loop for every problem of the crate.
+//! Nonlinear least squares by Levenberg–Marquardt.
 //!
-//! * `minimize` is the loop. It knows a `System` only: something that can linearize itself,
-//!   solve its damped normal equations and step.
-//! * `minimize_fixed` serves problems whose number of parameters is known when compiling, such
-//!   as a pose or a fundamental matrix. It does not allocate.
-//! * [`minimize_dense`] serves a [`DenseProblem`] of any size, by QR.
-//! * `SchurSystem` serves bundle adjustment: some cameras, very many points.
-//! * `GraphSystem` serves pose graphs: blocks, few of which meet.
-//! * [`RobustLoss`] bounds the influence of outliers; the loop accepts a step only if the true
-//!   robust cost decreases, never a weighted surrogate.
+//! * `minimize` is the solver. It knows only a `System`: it linearizes itself, solves its damped
+//!   normal equations and steps.
+//! * `minimize_fixed` is for problems with a compile-time number of parameters, such as a pose or a
+//!   fundamental matrix. It does not allocate.
+//! * [`minimize_dense`] is for a [`DenseProblem`] of any size, by QR.
+//! * `SchurSystem` is for bundle adjustment: some cameras, very many points.
+//! * `GraphSystem` is for pose graphs, with sparse blocks.
+//! * [`RobustLoss`] bounds the influence of outliers; a step is accepted only if the true robust
+//!   cost decreases, never by a weighted surrogate.
 //! * [`check_jacobian`] compares an analytic Jacobian with central differences.
 //!
 //! The cost is always `½ Σ ρ(‖rᵢ‖²)`.

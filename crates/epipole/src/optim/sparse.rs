@@ -1,20 +1,20 @@
-//! Sparse Cholesky factorization in blocks of one size.
+//! Sparse Cholesky factorization with blocks of one size.
 
 use crate::math::order::sort_indices;
 use nalgebra::{SMatrix, SVector};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// In which order vertices are eliminated, and which blocks that fills. It does not depend on the
-/// blocks' size, so it is compiled once.
+/// Elimination order of the vertices, and the resulting nonzero blocks. Independent of the block
+/// size, so it is compiled once.
 struct Pattern {
-    /// Place in the order of elimination of each vertex.
+    /// Position of each vertex in the elimination order.
     place: Vec<usize>,
-    /// Vertex at each place.
+    /// Vertex at each position.
     vertex: Vec<usize>,
-    /// Below the diagonal, places of the blocks in each column, ascending.
+    /// Positions of the blocks below the diagonal in each column, ascending.
     rows: Vec<Vec<usize>>,
-    /// Columns left of the diagonal that have a block in each row.
+    /// Columns left of the diagonal with a block in each row.
     left: Vec<Vec<usize>>,
 }
 
@@ -38,7 +38,7 @@ impl Pattern {
         let mut vertex = Vec::with_capacity(count);
         let mut pattern = Vec::with_capacity(count);
         while let Some(Reverse((degree, v))) = queue.pop() {
-            // Entries from before a degree changed are still in the queue.
+            // Entries from before a change of degree are still in the queue.
             if eliminated[v] || degree != neighbors[v].len() {
                 continue;
             }
@@ -77,10 +77,9 @@ impl Pattern {
     }
 }
 
-/// The lower triangular factor of a symmetric matrix of `D × D` blocks, most of them zero.
+/// Lower triangular factor of a symmetric matrix of `D × D` blocks, most of them zero.
 ///
-/// The order of elimination is by least degree, found once; values can be factorized again and
-/// again.
+/// The minimum-degree order is computed once; values can be factorized repeatedly.
 pub(crate) struct BlockCholesky<const D: usize> {
     pattern: Pattern,
     diagonal: Vec<SMatrix<f64, D, D>>,
@@ -88,7 +87,7 @@ pub(crate) struct BlockCholesky<const D: usize> {
 }
 
 impl<const D: usize> BlockCholesky<D> {
-    /// Finds the order and the pattern for blocks at the `pairs` of `count` vertices.
+    /// Computes the order and the pattern for blocks at the `pairs` of `count` vertices.
     pub(crate) fn new(count: usize, pairs: &[(u32, u32)]) -> Self {
         let pattern = Pattern::new(count, pairs);
         let blocks = (pattern.rows.iter())
@@ -111,12 +110,12 @@ impl<const D: usize> BlockCholesky<D> {
         }
     }
 
-    /// Adds a block on the diagonal.
+    /// Adds a diagonal block.
     pub(crate) fn add_diagonal(&mut self, vertex: usize, block: &SMatrix<f64, D, D>) {
         self.diagonal[self.pattern.place[vertex]] += block;
     }
 
-    /// Adds the block in row `a` and column `b`, and with it its transpose in row `b`, column `a`.
+    /// Adds a block in row `a` and column `b`, and its transpose in row `b`, column `a`.
     pub(crate) fn add(&mut self, a: usize, b: usize, block: &SMatrix<f64, D, D>) {
         let (a, b) = (self.pattern.place[a], self.pattern.place[b]);
         let (row, column) = (a.max(b), a.min(b));
@@ -129,7 +128,7 @@ impl<const D: usize> BlockCholesky<D> {
         }
     }
 
-    /// Replaces the matrix by its factor; false unless it is positive definite.
+    /// Replaces the matrix by its factor; returns false unless it is positive definite.
     pub(crate) fn factorize(&mut self) -> bool {
         let count = self.diagonal.len();
         let mut position = vec![usize::MAX; count];
@@ -172,7 +171,7 @@ impl<const D: usize> BlockCholesky<D> {
         true
     }
 
-    /// Solves for one vector a vertex, in place, after [`factorize`](Self::factorize).
+    /// Solves for one vector per vertex, in place, after [`factorize`](Self::factorize).
     pub(crate) fn solve(&self, b: &mut [SVector<f64, D>]) {
         let mut x: Vec<SVector<f64, D>> = self.pattern.vertex.iter().map(|&v| b[v]).collect();
         for column in 0..x.len() {
@@ -209,7 +208,7 @@ impl<const D: usize> BlockCholesky<D> {
     }
 }
 
-/// The union of two ascending lists, without two of their members.
+/// Merges two ascending lists, without two of their members.
 fn merged_without(a: &[usize], b: &[usize], first: usize, second: usize) -> Vec<usize> {
     let mut merged = Vec::with_capacity(a.len() + b.len());
     let (mut i, mut j) = (0, 0);

@@ -1,16 +1,16 @@
-//! A part of the data, with weights.
+//! Weighted subsets of the data.
 
-/// Data that a least-squares problem uses, and the weight of each.
+/// Data used by a least-squares problem, with weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Subset<'a> {
     /// Indices of the data.
     pub(crate) indices: &'a [usize],
-    /// Their weights, in the same order; `None` if all count alike.
+    /// Their weights, in the same order; `None` if all are equal.
     pub(crate) weights: Option<&'a [f64]>,
 }
 
 impl<'a> Subset<'a> {
-    /// Data that count alike.
+    /// Creates a subset with equal weights.
     pub(crate) fn alike(indices: &'a [usize]) -> Self {
         Self {
             indices,
@@ -18,7 +18,7 @@ impl<'a> Subset<'a> {
         }
     }
 
-    /// Data with a weight each.
+    /// Creates a subset with individual weights.
     pub(crate) fn weighted(indices: &'a [usize], weights: &'a [f64]) -> Self {
         Self {
             indices,
@@ -26,7 +26,7 @@ impl<'a> Subset<'a> {
         }
     }
 
-    /// The indices, each with the root of its weight: the factor of residual and Jacobian.
+    /// Iterates over indices and square roots of weights, the factors of residual and Jacobian.
     pub(crate) fn iter(self) -> impl Iterator<Item = (usize, f64)> + use<'a> {
         let root = move |place: usize| self.weights.map_or(1.0, |weights| weights[place].sqrt());
         let indices = self.indices.iter().enumerate();

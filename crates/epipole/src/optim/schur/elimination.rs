@@ -1,11 +1,11 @@
-//! Points are eliminated: the reduced system of the cameras, and the way back to the points.
+//! Elimination of points: the reduced system of the cameras, and back-substitution of the points.
 
 use super::{BundleProblem, SchurSystem};
 use crate::math::parallel::for_each;
 use crate::optim::fixed::damping_scale;
 
 impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, S, B> {
-    /// `V⁻¹` of every point, and what is multiplied by it.
+    /// Computes `V⁻¹` of every point, and its products.
     pub(super) fn invert_point_blocks(&mut self, damping: f64) {
         let width = self.width;
         for_each(&mut self.points, |_, block| {
@@ -13,7 +13,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
             for i in 0..3 {
                 damped[i][i] = damp(damped[i][i], damping);
             }
-            // A point whose block is singular even when damped stays where it is.
+            // A point whose block is singular even with damping does not move.
             block.inverse = invert_symmetric(&damped).unwrap_or([[0.0; 3]; 3]);
             for i in 0..3 {
                 block.solved_gradient[i] = 0.0;
@@ -45,7 +45,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
         });
     }
 
-    /// `U − W V⁻¹ Wᵀ` and its right side, camera by camera.
+    /// Computes `U − W V⁻¹ Wᵀ` and its right side, camera by camera.
     pub(super) fn reduce(&mut self, damping: f64) {
         let (couplings, points, starts, of_camera) = (
             &self.couplings,
@@ -124,7 +124,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
         self.reduce_groups(damping, groups_start);
     }
 
-    /// The rows of the groups, from `groups_start` on, without what they have with cameras.
+    /// Computes the rows of the groups, from `groups_start` on, without their coupling to cameras.
     fn reduce_groups(&mut self, damping: f64, groups_start: usize) {
         let (size, width) = (self.right.len(), self.width);
         for (g, block) in self.groups.iter().enumerate() {
@@ -146,7 +146,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
                         self.right[first + s] -= a.with_point[k][s] * point.solved_gradient[k];
                     }
                 }
-                // The lower triangle is all that is looked at.
+                // Only the lower triangle is used.
                 for b in point.groups.iter().filter(|b| b.group <= a.group) {
                     let column = groups_start + b.group as usize * width;
                     for s in 0..width {
@@ -205,7 +205,8 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'_, C, 
     }
 }
 
-/// A diagonal entry with its damping; 1 where nothing depends on the parameter, so that it stays.
+/// Returns a diagonal entry with its damping; 1 for a parameter without influence, so that it does
+/// not move.
 #[inline]
 fn damp(curvature: f64, damping: f64) -> f64 {
     if curvature > 0.0 {
@@ -215,9 +216,9 @@ fn damp(curvature: f64, damping: f64) -> f64 {
     }
 }
 
-/// The inverse of a symmetric positive definite 3×3 matrix, `None` if it is not one.
+/// Inverts a symmetric positive definite 3×3 matrix; `None` if it is not one.
 fn invert_symmetric(m: &[[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
-    // Scaled to a unit diagonal, so that the test for singularity does not depend on units.
+    // Scaled to unit diagonal, so that the singularity test does not depend on units.
     let mut scale = [0.0; 3];
     for i in 0..3 {
         scale[i] = 1.0 / m[i][i].sqrt();

@@ -1,4 +1,4 @@
-//! Bundle adjustment's normal equations: points are eliminated, the cameras' reduced system is
+//! Normal equations of bundle adjustment: points are eliminated, the cameras' reduced system is
 //! solved densely.
 
 mod elimination;
@@ -15,10 +15,10 @@ pub(crate) use problem::{BundleProblem, BundleStep, ObservationTerms, PriorTerms
 struct CameraBlock<const C: usize, const S: usize> {
     /// Lower triangle of `Σ JcᵀJc`.
     hessian: [[f64; C]; C],
-    /// With every group.
+    /// Coupling with every group.
     with_shared: Vec<[[f64; C]; S]>,
     gradient: [f64; C],
-    /// This camera's rows of the reduced system, up to and including its own block.
+    /// This camera's rows of the reduced system, up to and including its diagonal block.
     rows: Vec<f64>,
     reduced_with_shared: Vec<[[f64; C]; S]>,
     reduced_gradient: [f64; C],
@@ -43,23 +43,23 @@ struct PointBlock<const S: usize> {
     inverse: [[f64; 3]; 3],
     /// `V⁻¹` times the gradient.
     solved_gradient: [f64; 3],
-    /// Those that see the point, in the order in which they come.
+    /// Groups that see the point, in order of appearance.
     groups: Vec<GroupOfPoint<S>>,
 }
 
-/// Sums over the observations of a group, by its shared parameters.
+/// Sums over the observations of a group by its shared parameters.
 #[derive(Clone)]
 struct GroupBlock<const S: usize> {
     hessian: [[f64; S]; S],
     gradient: [f64; S],
 }
 
-/// An observation's blocks, √ρ' included.
+/// Blocks of an observation, including √ρ'.
 #[derive(Clone)]
 struct Coupling<const C: usize, const S: usize> {
     camera: u32,
     point: u32,
-    /// Which of the groups of its point, if there are any.
+    /// Index among the groups of its point, if there are any.
     group_of_point: u32,
     terms: ObservationTerms<C, S>,
     /// `JpᵀJc`.
@@ -68,16 +68,16 @@ struct Coupling<const C: usize, const S: usize> {
     solved: [[f64; C]; 3],
 }
 
-/// Least damping: the reduced system of cameras without a gauge is singular.
+/// Minimum damping: without a gauge the reduced system of the cameras is singular.
 const LEAST_DAMPING: f64 = 1e-12;
 
 /// The [`System`] of a [`BundleProblem`].
 ///
-/// With the damped blocks U (cameras), V (points, 3×3 each) and W between them, the cameras'
-/// steps solve `(U − W V⁻¹ Wᵀ) δc = −(gc − W V⁻¹ gp)`; then `δp = −V⁻¹ (gp + Wᵀ δc)`. What groups
-/// share stands behind the cameras in this system.
+/// With the damped blocks U (cameras), V (points, 3×3 each) and the coupling W, the cameras' steps
+/// solve `(U − W V⁻¹ Wᵀ) δc = −(gc − W V⁻¹ gp)`; then `δp = −V⁻¹ (gp + Wᵀ δc)`. The shared
+/// parameters of groups follow the cameras in this system.
 ///
-/// Cameras without observations and points without any stay where they are.
+/// Cameras and points without observations do not move.
 ///
 /// Source: Triggs et al. 2000, "Bundle adjustment — a modern synthesis", §6.1.
 pub(crate) struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> {
@@ -100,7 +100,7 @@ pub(crate) struct SchurSystem<'a, const C: usize, const S: usize, B: BundleProbl
 }
 
 impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a, C, S, B> {
-    /// Sorts the observations and makes room for all blocks.
+    /// Sorts the observations and allocates all blocks.
     pub(crate) fn new(problem: &'a B) -> Self {
         let (num_cameras, num_points) = (problem.num_cameras(), problem.num_points());
         let num_groups = problem.num_groups();
@@ -112,7 +112,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         for p in 0..num_points {
             point_starts[p + 1] += point_starts[p];
         }
-        // Observations by point, those of one as they come.
+        // Observations by point, in their original order for each point.
         let mut order = vec![0; observations.len()];
         let mut next = point_starts.clone();
         for (o, &(_, point)) in observations.iter().enumerate() {
@@ -297,12 +297,12 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         });
     }
 
-    /// Variances of the free shared parameters of all groups, one after the other, for residuals of
-    /// variance 1; after a [`solve`](System::solve) that succeeded.
+    /// Returns the variances of the free shared parameters of all groups, in order, for residuals
+    /// of variance 1; after a successful [`solve`](System::solve).
     pub(crate) fn shared_variances(&self) -> Vec<f64> {
         let size = self.right.len();
         let start = self.cameras.len() * C;
-        // Shared parameters stand last, so `(L₂₂ L₂₂ᵀ)⁻¹` is their block of the inverse.
+        // Shared parameters are last, so `(L₂₂ L₂₂ᵀ)⁻¹` is their block of the inverse.
         let column = |of: usize| {
             let mut solved = vec![0.0; size - start];
             for row in of..size {
@@ -317,7 +317,7 @@ impl<'a, const C: usize, const S: usize, B: BundleProblem<C, S>> SchurSystem<'a,
         (start..size).map(column).collect()
     }
 
-    /// Predicted decrease and squared length of the step.
+    /// Returns the predicted decrease and the squared length of the step.
     fn measure(&self, damping: f64) -> (f64, f64) {
         let (mut predicted, mut norm_sq) = (0.0, 0.0);
         let mut add = |delta: f64, gradient: f64, curvature: f64| {
@@ -461,7 +461,7 @@ impl<const S: usize> GroupBlock<S> {
     }
 }
 
-/// Index of a group among those of a point; new groups are added.
+/// Returns the index of a group among those of a point; adds new groups.
 fn place_of<const S: usize>(group: u32, groups: &mut Vec<GroupOfPoint<S>>) -> usize {
     let place = groups.iter().position(|known| known.group == group);
     place.unwrap_or_else(|| {

@@ -1,9 +1,9 @@
-//! A problem of cameras and points, as its solver sees it.
+//! Interface of a problem of cameras and points to its solver.
 
 use crate::optim::loss::RobustLoss;
 
-/// One observation linearized: residual and Jacobians with respect to its camera (`C` degrees of
-/// freedom), the shared parameters of the camera's group (`S`), and its point.
+/// A linearized observation: residual and Jacobians by its camera (`C` degrees of freedom), the
+/// shared parameters of the camera's group (`S`), and its point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ObservationTerms<const C: usize, const S: usize> {
     /// Predicted minus observed.
@@ -16,18 +16,18 @@ pub(crate) struct ObservationTerms<const C: usize, const S: usize> {
     pub(crate) point: [[f64; 3]; 2],
 }
 
-/// Steps of all blocks, as the Schur complement solves for them.
+/// Steps of all blocks, from the Schur complement.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct BundleStep<const C: usize, const S: usize> {
-    /// One a camera.
+    /// One step per camera.
     pub(crate) cameras: Vec<[f64; C]>,
-    /// Shared parameters of the cameras of a group, one set a group.
+    /// Steps of the shared parameters, one per group.
     pub(crate) shared: Vec<[f64; S]>,
-    /// One a point.
+    /// One step per point.
     pub(crate) points: Vec<[f64; 3]>,
 }
 
-/// A linearized prior of a camera: residual and Jacobian with respect to the camera.
+/// A linearized prior of a camera: residual and Jacobian by the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PriorTerms<const C: usize> {
     /// Estimated minus known, in standard deviations.
@@ -37,16 +37,16 @@ pub(crate) struct PriorTerms<const C: usize> {
 }
 
 /// A problem of cameras and points, where every residual belongs to one camera and one point.
-/// Cameras that share parameters, such as a lens, form a group; an observation belongs to one.
+/// Cameras with shared parameters, such as a lens, form a group; an observation belongs to one.
 pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     /// Cameras, groups and points.
     type Parameters: Clone + Sync;
 
-    /// The number of cameras.
+    /// Returns the number of cameras.
     fn num_cameras(&self) -> usize;
-    /// The number of points.
+    /// Returns the number of points.
     fn num_points(&self) -> usize;
-    /// Camera and point of each observation; both must be in range.
+    /// Returns camera and point of each observation; both must be in range.
     fn observations(&self) -> &[(u32, u32)];
     /// The residual of one observation.
     fn residual(&self, parameters: &Self::Parameters, observation: usize) -> [f64; 2];
@@ -56,29 +56,29 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
         parameters: &Self::Parameters,
         observation: usize,
     ) -> ObservationTerms<C, S>;
-    /// `from ⊞ step`.
+    /// Writes `from ⊞ step`.
     fn step(&self, from: &Self::Parameters, step: &BundleStep<C, S>, into: &mut Self::Parameters);
-    /// The length of the parameters, for the relative step test.
+    /// Returns the length of the parameters, for the relative step test.
     fn parameter_norm(&self, parameters: &Self::Parameters) -> f64;
     /// The loss of every residual.
     fn loss(&self) -> RobustLoss;
-    /// Which degrees of freedom of a camera are held fixed.
+    /// Returns which degrees of freedom of a camera are held fixed.
     fn held_camera(&self, _camera: usize) -> [bool; C] {
         [false; C]
     }
-    /// The number of groups. One by default, or none if nothing is shared.
+    /// Returns the number of groups. One by default, or none without shared parameters.
     fn num_groups(&self) -> usize {
         usize::from(S > 0)
     }
-    /// The group of an observation; it must be in range. The first by default.
+    /// Returns the group of an observation; it must be in range. The first by default.
     fn group(&self, _observation: usize) -> usize {
         0
     }
-    /// Which shared quantities are held fixed, alike in all groups.
+    /// Returns which shared parameters are held fixed, the same for all groups.
     fn held_shared(&self) -> [bool; S] {
         [false; S]
     }
-    /// Prior of a camera. None by default.
+    /// Returns the prior of a camera. None by default.
     fn prior(&self, _parameters: &Self::Parameters, _camera: usize) -> Option<PriorTerms<C>> {
         None
     }
