@@ -4,23 +4,23 @@ use super::{Intrinsics, Lens, Observation};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Point3, Vector3};
 
-/// A calibrated camera of any lens.
+/// A calibrated camera with any lens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Width of its images, pixels.
+    /// Image width, pixels.
     pub width: u32,
-    /// Height of its images, pixels.
+    /// Image height, pixels.
     pub height: u32,
-    /// K.
+    /// Intrinsics K.
     pub intrinsics: Intrinsics,
-    /// The lens.
+    /// Lens.
     pub lens: Lens,
 }
 
 impl Camera {
-    /// A camera without distortion.
+    /// Creates a camera without distortion.
     ///
-    /// * `width`, `height`: of its images, pixels
+    /// * `width`, `height`: image size, pixels
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -39,20 +39,20 @@ impl Camera {
         }
     }
 
-    /// Whether its images are those of a pinhole camera: no distortion.
+    /// Returns whether this is a pinhole camera: without distortion.
     pub fn is_pinhole(&self) -> bool {
         self.lens.is_none()
     }
 
-    /// Whether both of two cameras are pinholes.
+    /// Returns whether both cameras are pinholes.
     pub(crate) fn are_pinholes(cameras: [&Self; 2]) -> bool {
         cameras.into_iter().all(Self::is_pinhole)
     }
 
-    /// The pixel where a point of the camera frame is seen.
+    /// Projects a point of the camera frame.
     ///
     /// # Errors
-    /// [`Error::PointBehindCamera`] if the lens does not see it.
+    /// [`Error::PointBehindCamera`] if the lens does not see the point.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -64,7 +64,7 @@ impl Camera {
     ///     intrinsics: Intrinsics::new(500.0, 500.0, 320.0, 240.0)?,
     ///     lens: Lens::from_coefficients(LensKind::Brown, &[0.1, 0.0, 0.0, 0.0, 0.0])?,
     /// };
-    /// // r² = 0.25, so the ray (0.3, 0.4) bends to 1.025 times as much.
+    /// // r² = 0.25, so the ray (0.3, 0.4) is scaled by 1.025.
     /// let pixel = camera.project(&Point3::new(0.6, 0.8, 2.0))?;
     /// assert!((pixel - Point2::new(473.75, 445.0)).norm() < 1e-9);
     /// let ray = camera.unproject(&pixel)?;
@@ -79,8 +79,8 @@ impl Camera {
         pixel.ok_or(Error::PointBehindCamera)
     }
 
-    /// The derivatives of [`project`](Self::project) by the point; those of a pinhole for a point
-    /// behind it.
+    /// Returns the derivatives of [`project`](Self::project) by the point; those of a pinhole for a
+    /// point behind the camera.
     pub(crate) fn jacobian(&self, x_in_cam: &Point3<f64>) -> Matrix2x3<f64> {
         let (fu, fv) = (self.intrinsics.fu_px(), self.intrinsics.fv_px());
         if self.is_pinhole() {
@@ -98,7 +98,7 @@ impl Camera {
         Matrix2x3::from_rows(&[by_point.row(0) * fu, by_point.row(1) * fv])
     }
 
-    /// The unit ray through a pixel, in the camera frame.
+    /// Returns the unit ray of a pixel, in the camera frame.
     ///
     /// # Errors
     /// As [`Lens::ray`].
@@ -106,7 +106,7 @@ impl Camera {
         Ok(self.ray(pixel)?.normalize())
     }
 
-    /// The ray through a pixel, in the camera frame, of any length.
+    /// Returns the ray of a pixel, in the camera frame, of any length.
     pub(crate) fn ray(&self, pixel: &Point2<f64>) -> Result<Vector3<f64>> {
         if self.is_pinhole() {
             return Ok(self.intrinsics.ray(pixel));
@@ -114,10 +114,10 @@ impl Camera {
         self.lens.ray(&self.intrinsics.ray(pixel).xy().into())
     }
 
-    /// A pixel with its ray and its derivative by the ray.
+    /// Returns a pixel with its ray and the pixel's derivative by the ray.
     ///
     /// # Errors
-    /// As [`Lens::ray`]; [`Error::Degenerate`] also at the very fold of the lens.
+    /// As [`Lens::ray`]; [`Error::Degenerate`] also exactly at the fold of the lens.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -125,11 +125,11 @@ impl Camera {
     /// use nalgebra::{Point2, Vector3};
     /// let intrinsics = Intrinsics::new(100.0, 100.0, 200.0, 200.0)?;
     /// let camera = Camera { lens: Lens::Fisheye(Fisheye::default()), ..Camera::pinhole(intrinsics, 401, 401) };
-    /// // A right angle to the right is π/2 focal lengths off the middle.
+    /// // 90° to the right is π/2 focal lengths off the middle.
     /// let pixel = Point2::new(200.0 + 50.0 * core::f64::consts::PI, 200.0);
     /// let seen = camera.observe(&pixel)?;
     /// assert!((seen.ray() - Vector3::x()).norm() < 1e-12);
-    /// // A point 0.01 rad further back is seen a pixel further out.
+    /// // A point 0.01 rad further back appears a pixel further out.
     /// let off_px = seen.offset_px(&Vector3::new(1.0, 0.0, -0.01)).unwrap();
     /// assert!((off_px.x - 1.0).abs() < 1e-9);
     /// # Ok(()) }
@@ -143,15 +143,15 @@ impl Camera {
         })
     }
 
-    /// The pixel where a camera with the same K and no distortion would see what this one sees at
-    /// `pixel`.
+    /// Undistorts a pixel: returns the position where a camera with the same K and no distortion
+    /// sees the same ray.
     ///
-    /// Functions that take [`Intrinsics`], such as a triangulation, take such pixels of any lens,
-    /// together with [`Camera::intrinsics`]. Errors in pixels are then those of the straightened
-    /// photograph: where the lens squeezes the margin, they count for more there.
+    /// Functions that take [`Intrinsics`], such as triangulation, work for any lens with these
+    /// pixels and [`Camera::intrinsics`]. Errors are then in pixels of the undistorted image, and
+    /// weigh more where the lens compresses the margin.
     ///
     /// # Errors
-    /// As [`Lens::ray`]; [`Error::PointBehindCamera`] for what a fisheye sees 90° and more off its
+    /// As [`Lens::ray`]; [`Error::PointBehindCamera`] for rays of a fisheye 90° or more off its
     /// axis.
     ///
     /// ```
@@ -164,7 +164,7 @@ impl Camera {
     ///     width: 640,
     ///     height: 480,
     /// };
-    /// // Of the ray (0.3, 0.4), which the lens bends to 1.025 times as much.
+    /// // The pixel of the ray (0.3, 0.4), which the lens scales by 1.025.
     /// let straight = camera.pinhole_pixel(&Point2::new(473.75, 445.0))?;
     /// assert!((straight - Point2::new(470.0, 440.0)).norm() < 1e-9);
     /// # Ok(()) }

@@ -1,19 +1,19 @@
-//! Lens distortion after Brown and Conrady.
+//! Lens distortion by the model of Brown and Conrady.
 
 use super::unbend::{RESIDUAL, descend, radial_start};
 use crate::math::polynomial::cubic_roots;
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
-/// The bending of rays by a lens: radial terms k1, k2, k3 and tangential terms p1, p2.
+/// Brown–Conrady distortion: radial terms k1, k2, k3 and tangential terms p1, p2.
 ///
-/// A ray through (x, y, 1) leaves the lens as the ray through (x', y', 1), with r² = x² + y²:
+/// A ray through (x, y, 1) is imaged at (x', y'), with r² = x² + y²:
 ///
 /// * `x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶) + 2 p1 x y + p2 (r² + 2 x²)`
 /// * `y' = y (1 + k1 r² + k2 r⁴ + k3 r⁶) + p1 (r² + 2 y²) + 2 p2 x y`
 ///
-/// The pixel is then `u = fu x' + cu`, `v = fv y' + cv`. These are OpenCV's first five numbers, in
-/// the order k1, k2, p1, p2, k3.
+/// The pixel is then `u = fu x' + cu`, `v = fv y' + cv`. These are OpenCV's first five
+/// coefficients, in the order k1, k2, p1, p2, k3.
 ///
 /// Sources: Conrady 1919, "Decentred lens-systems"; Brown 1966, "Decentering distortion of
 /// lenses".
@@ -24,20 +24,20 @@ use nalgebra::{Matrix2, Point2};
     serde(default, deny_unknown_fields)
 )]
 pub struct Distortion {
-    /// Of r².
+    /// Coefficient of r².
     pub k1: f64,
-    /// Of r⁴.
+    /// Coefficient of r⁴.
     pub k2: f64,
-    /// Tangential, mostly along y.
+    /// Tangential coefficient, mostly along y.
     pub p1: f64,
-    /// Tangential, mostly along x.
+    /// Tangential coefficient, mostly along x.
     pub p2: f64,
-    /// Of r⁶.
+    /// Coefficient of r⁶.
     pub k3: f64,
 }
 
 impl Distortion {
-    /// A lens that bends nothing.
+    /// No distortion.
     pub const NONE: Self = Self {
         k1: 0.0,
         k2: 0.0,
@@ -46,7 +46,7 @@ impl Distortion {
         k3: 0.0,
     };
 
-    /// From `[k1, k2, p1, p2, k3]`, OpenCV's order.
+    /// Creates the model from `[k1, k2, p1, p2, k3]`, OpenCV's order.
     ///
     /// # Errors
     /// [`Error::NotFinite`] for NaN or infinities.
@@ -60,12 +60,12 @@ impl Distortion {
         Ok(Self { k1, k2, p1, p2, k3 })
     }
 
-    /// Whether the lens bends nothing.
+    /// Returns whether there is no distortion.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
 
-    /// Distorted position of the ray (x, y, 1), in normalized coordinates.
+    /// Returns the distorted position of the ray (x, y, 1), in normalized coordinates.
     ///
     /// ```
     /// use epipole::camera::Distortion;
@@ -85,7 +85,7 @@ impl Distortion {
         )
     }
 
-    /// The derivative of [`Distortion::distort`], rows x', y', columns x, y.
+    /// Returns the derivative of [`Distortion::distort`], rows x', y', columns x, y.
     pub fn jacobian(&self, ray: &Point2<f64>) -> Matrix2<f64> {
         let (x, y) = (ray.x, ray.y);
         let r2 = x * x + y * y;
@@ -102,15 +102,15 @@ impl Distortion {
         )
     }
 
-    /// The ray (x, y, 1) that is seen at a distorted place: the inverse of
+    /// Returns the ray (x, y, 1) imaged at a distorted position: the inverse of
     /// [`Distortion::distort`], by Newton steps from the center outward.
     ///
-    /// Strong distortion folds the plane: beyond some radius a place is seen for two rays, or for
-    /// none. The answer lies inside the fold, where the lens model means something.
+    /// Strong distortion folds the plane: beyond some radius a position is the image of two rays,
+    /// or of none. The result lies inside the fold, where the lens model is meaningful.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no ray inside the fold is seen, [`Error::NotFinite`] for NaN
-    /// or infinities.
+    /// [`Error::Degenerate`] if no ray inside the fold is imaged there, [`Error::NotFinite`] for
+    /// NaN or infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -138,16 +138,16 @@ impl Distortion {
         };
         let fold_sq = self.fold_sq();
         let answers = |(ray, error): &(Point2<f64>, f64)| {
-            // Rounding may stop it a little early, never far from the answer.
+            // Rounding may stop it a little early, but never far from the solution.
             *error <= 1e3 * RESIDUAL * (1.0 + seen.coords.norm())
                 && ray.coords.norm_squared() < fold_sq
         };
-        // Beside the fold the undistorted place is the best start.
+        // Near the fold the position itself is the best initial value.
         let quick = self.descend(seen, *seen, f64::INFINITY);
         if answers(&quick) {
             return Ok(quick.0);
         }
-        // Newton may have leapt over the fold.
+        // Newton's method may have jumped over the fold.
         let inside = self.descend(seen, self.radial_start(seen, fold_sq), fold_sq);
         if answers(&inside) {
             Ok(inside.0)
@@ -156,9 +156,9 @@ impl Distortion {
         }
     }
 
-    /// As [`undistort`](Self::undistort); for a place beyond all that the lens model bends rays to,
-    /// the ray at the fold that is seen nearest to it. For drawing up to the border of a picture,
-    /// where the model was never measured, not for measuring.
+    /// As [`undistort`](Self::undistort), but a position beyond the range of the lens model gives
+    /// the ray at the fold imaged closest to it. For drawing up to the border of an image, where
+    /// the model was not calibrated, not for measuring.
     ///
     /// # Errors
     /// [`Error::NotFinite`] for NaN or infinities.
@@ -201,7 +201,8 @@ impl Distortion {
         })
     }
 
-    /// The squared radius at which the radial part stops growing; infinite if it never does.
+    /// Returns the squared radius at which the radial part stops growing; infinite if it never
+    /// does.
     fn fold_sq(&self) -> f64 {
         // d/dr of r (1 + k1 r² + k2 r⁴ + k3 r⁶), in r².
         let slope = [1.0, 3.0 * self.k1, 5.0 * self.k2, 7.0 * self.k3];
@@ -213,7 +214,7 @@ impl Distortion {
             .fold(f64::INFINITY, |least, s| least.min(*s))
     }
 
-    /// Whether the ray lies inside the fold: the radial part grows all the way to it.
+    /// Returns whether the ray lies inside the fold: the radial part grows all the way to it.
     pub(crate) fn is_seen(&self, ray: &Point2<f64>) -> bool {
         ray.coords.norm_squared() < self.fold_sq()
     }
@@ -224,7 +225,7 @@ mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// The coefficients of a real wide-angle camera.
+    /// Coefficients of a real wide-angle camera.
     fn wide_angle() -> Distortion {
         Distortion::from_coefficients([-0.28340811, 0.07395907, 0.00019359, 1.76187114e-5, 0.0])
             .unwrap()
@@ -306,8 +307,8 @@ mod tests {
         assert!(Distortion::from_coefficients([0.0, f64::INFINITY, 0.0, 0.0, 0.0]).is_err());
     }
 
-    /// Lenses of every kind, many of which fold: each ray inside the fold comes back, and an answer
-    /// is never beyond it, also where the fold is so narrow that few steps would pass over it.
+    /// Inverts lenses of every kind, many with folds: each ray inside the fold is recovered, and no
+    /// result is beyond it, even for a fold so narrow that few steps would hit it.
     #[test]
     fn every_ray_inside_the_fold_comes_back() {
         let mut random = Random::new(3);
@@ -352,7 +353,7 @@ mod tests {
             }
         }
         assert!(num_folded > 500, "{num_folded}");
-        // 1 − 3.98 s + 3.96 s² is below 0 for s from 0.5 to 0.505 alone.
+        // 1 − 3.98 s + 3.96 s² is negative only for s from 0.5 to 0.505.
         let narrow =
             Distortion::from_coefficients([-3.98 / 3.0, 3.96 / 5.0, 0.0, 0.0, 0.0]).unwrap();
         let beyond = Point2::new(3.0, 0.0);

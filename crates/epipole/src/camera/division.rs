@@ -1,11 +1,11 @@
-//! Lens distortion by one number, for lenses that bend much.
+//! Lens distortion by a single parameter, for strong distortion.
 
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
-/// The division model of distortion: a point imaged at distance r from the center lies on the ray
-/// at `r / (1 + k r²)`. The one parameter, negative for barrel distortion, fits wide-angle lenses
-/// well, too, and both directions are in closed form.
+/// Division model of distortion: a point imaged at distance r from the center lies on the ray at `r
+/// / (1 + k r²)`. The parameter, negative for barrel distortion, also suits wide-angle lenses, and
+/// both directions have closed forms.
 ///
 /// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens
 /// distortion", §2.
@@ -16,51 +16,52 @@ use nalgebra::{Matrix2, Point2};
     serde(default, deny_unknown_fields)
 )]
 pub struct Division {
-    /// Factor of r² in the divisor.
+    /// Coefficient of r² in the divisor.
     pub k: f64,
 }
 
 impl Division {
-    /// √(1 − 4 k r²), which is NaN where the ray is not seen.
+    /// Returns √(1 − 4 k r²), which is NaN if the ray is not seen.
     fn root(&self, ray: &Point2<f64>) -> f64 {
         (1.0 - 4.0 * self.k * ray.coords.norm_squared()).sqrt()
     }
 
-    /// Distorted position of the ray (x, y, 1), in normalized coordinates; NaN where it is not
-    /// seen.
+    /// Returns the distorted position of the ray (x, y, 1), in normalized coordinates; NaN if it is
+    /// not seen.
     ///
     /// ```
     /// use epipole::camera::Division;
     /// use nalgebra::Point2;
     /// let lens = Division { k: -0.75 };
-    /// // At a distance of 1 it shows the ray that is 1 / (1 − 0.75) = 4 away.
+    /// // At a distance of 1 is the ray at 1 / (1 − 0.75) = 4.
     /// assert!((lens.distort(&Point2::new(4.0, 0.0)) - Point2::new(1.0, 0.0)).norm() < 1e-15);
     /// ```
     pub fn distort(&self, ray: &Point2<f64>) -> Point2<f64> {
         ray * (2.0 / (1.0 + self.root(ray)))
     }
 
-    /// The derivative of [`distort`](Self::distort), rows x', y', columns x, y.
+    /// Returns the derivative of [`distort`](Self::distort), rows x', y', columns x, y.
     pub fn jacobian(&self, ray: &Point2<f64>) -> Matrix2<f64> {
         let root = self.root(ray);
-        // The factor 2 / (1 + √(1 − 4 k r²)) grows with r² by this.
+        // Derivative of the factor 2 / (1 + √(1 − 4 k r²)) by r².
         let slope = 4.0 * self.k / (root * (1.0 + root) * (1.0 + root));
         let outer = ray.coords * ray.coords.transpose();
         Matrix2::from_diagonal_element(2.0 / (1.0 + root)) + outer * (2.0 * slope)
     }
 
-    /// The derivative of [`distort`](Self::distort) by k: of x', of y'.
+    /// Returns the derivative of [`distort`](Self::distort) by k: of x' and of y'.
     pub fn by_k(&self, ray: &Point2<f64>) -> [f64; 2] {
         let root = self.root(ray);
         let slope = 4.0 * ray.coords.norm_squared() / (root * (1.0 + root) * (1.0 + root));
         [ray.x * slope, ray.y * slope]
     }
 
-    /// The ray (x, y, 1) that is seen at a distorted place.
+    /// Returns the ray (x, y, 1) imaged at a distorted position.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no ray is seen: beyond `1 / √|k|`, a barrel's rays at right
-    /// angles, a cushion's fold. [`Error::NotFinite`] for NaN and infinities.
+    /// [`Error::Degenerate`] if there is no ray: beyond `1 / √|k|`, where rays are perpendicular to
+    /// the axis (barrel) or the model folds (pincushion). [`Error::NotFinite`] for NaN and
+    /// infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -110,12 +111,12 @@ mod tests {
                     (lens.undistort(&seen).unwrap() - ray).norm() < 1e-12,
                     "{k} {ray}"
                 );
-                // Fitzgibbon's formula, literally.
+                // Fitzgibbon's formula, verbatim.
                 let r_sq = seen.coords.norm_squared();
                 assert!((seen / (1.0 + k * r_sq) - ray).norm() < 1e-12);
             }
         }
-        // A cushion folds where 4 k r² = 1.
+        // A pincushion folds where 4 k r² = 1.
         let cushion = Division { k: 0.25 };
         assert!(
             cushion.is_seen(&Point2::new(0.99, 0.0)) && !cushion.is_seen(&Point2::new(1.0, 0.0))

@@ -1,14 +1,14 @@
-//! Lenses that see up to half of the world and more.
+//! Fisheye lenses, with fields of view of 180° and more.
 
 use crate::math::real_roots::{DEGREE, real_roots};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Vector2, Vector3};
 
-/// A fisheye lens: a ray at the angle θ from the optical axis is seen at the radius
-/// `θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)`, in units of the focal length.
+/// Fisheye lens: a ray at the angle θ from the optical axis is imaged at the radius `θ (1 + k1 θ² +
+/// k2 θ⁴ + k3 θ⁶ + k4 θ⁸)`, in units of the focal length.
 ///
-/// These are the four numbers of OpenCV's fisheye model. Rays beside and behind the camera are
-/// seen, too.
+/// These are the four coefficients of OpenCV's fisheye model. Rays beside and behind the camera are
+/// seen as well.
 ///
 /// Source: Kannala & Brandt 2006, "A generic camera model and calibration method for conventional,
 /// wide-angle, and fish-eye lenses".
@@ -24,7 +24,7 @@ pub struct Fisheye {
 }
 
 impl Fisheye {
-    /// The radius at which the angle θ is seen, and its derivative.
+    /// Returns the radius for the angle θ, and its derivative.
     fn radius(&self, theta: f64) -> (f64, f64) {
         let [k1, k2, k3, k4] = self.coefficients;
         let s = theta * theta;
@@ -34,13 +34,13 @@ impl Fisheye {
         )
     }
 
-    /// Distorted position of a ray, in units of the focal length; `None` for no ray at all and
-    /// straight backwards.
+    /// Returns the distorted position of a ray, in units of the focal length; `None` for a zero ray
+    /// and straight backwards.
     ///
     /// ```
     /// use epipole::camera::Fisheye;
     /// use nalgebra::Vector3;
-    /// // Half a right angle to the right.
+    /// // 45° to the right.
     /// let seen = Fisheye::default().project(&Vector3::new(2.0, 0.0, 2.0)).unwrap();
     /// assert!((seen.x - core::f64::consts::FRAC_PI_4).abs() < 1e-15 && seen.y == 0.0);
     /// ```
@@ -54,7 +54,8 @@ impl Fisheye {
         (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
     }
 
-    /// The derivatives of [`project`](Self::project) by the ray and by the four coefficients.
+    /// Returns the derivatives of [`project`](Self::project) by the ray and by the four
+    /// coefficients.
     pub fn derivatives(&self, ray: &Vector3<f64>) -> (Matrix2x3<f64>, [[f64; 4]; 2]) {
         let (x, y, z) = (ray.x, ray.y, ray.z);
         let across = libm::hypot(x, y);
@@ -67,7 +68,8 @@ impl Fisheye {
         let theta = libm::atan2(across, z);
         let (radius, slope) = self.radius(theta);
         let factor = radius / across;
-        // Of the factor, by the distance across (over that distance) and by z.
+        // Derivatives of the factor by the distance from the axis (divided by that distance) and by
+        // z.
         let by_across = (slope * z / length_sq - factor) / (across * across);
         let by_z = -slope / length_sq;
         let by_ray = Matrix2x3::new(
@@ -84,10 +86,10 @@ impl Fisheye {
         (by_ray, [powers.map(|p| p * x), powers.map(|p| p * y)])
     }
 
-    /// The ray, of length 1, that is seen at a place.
+    /// Returns the unit ray imaged at a position.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no ray is seen: beyond the angle at which the radius stops
+    /// [`Error::Degenerate`] if there is no ray: beyond the angle at which the radius stops
     /// growing, or beyond straight backwards. [`Error::NotFinite`] for NaN or infinities.
     ///
     /// ```
@@ -115,7 +117,7 @@ impl Fisheye {
                 why: "the lens model bends no ray to it",
             });
         }
-        // Monotone in between; halving is exact enough after 60 steps and cannot go astray.
+        // Monotone in between; 60 bisections are accurate enough and cannot diverge.
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if self.radius(middle).0 < wanted {
@@ -129,13 +131,13 @@ impl Fisheye {
         Ok(Vector3::new(across.x, across.y, cosine))
     }
 
-    /// Whether the ray is inside the angle at which the radius stops growing.
+    /// Returns whether the ray is inside the angle at which the radius stops growing.
     pub(super) fn sees(&self, ray: &Vector3<f64>) -> bool {
         let theta = libm::atan2(libm::hypot(ray.x, ray.y), ray.z);
         theta < self.fold().min(core::f64::consts::PI)
     }
 
-    /// The angle at which the radius stops growing; infinite if it never does.
+    /// Returns the angle at which the radius stops growing; infinite if it never does.
     fn fold(&self) -> f64 {
         let [k1, k2, k3, k4] = self.coefficients;
         let mut slope = [0.0; DEGREE + 1];

@@ -15,7 +15,7 @@ pub struct Intrinsics {
 }
 
 impl Intrinsics {
-    /// Intrinsics with separate focal lengths along u and v.
+    /// Creates intrinsics with separate focal lengths along u and v.
     ///
     /// # Errors
     /// [`Error::NotFinite`] for NaN or infinities, [`Error::OutOfRange`] for a focal length ≤ 0.
@@ -60,8 +60,8 @@ impl Intrinsics {
         })
     }
 
-    /// Square pixels, principal point in the middle of a `width × height` image:
-    /// `cu = (width − 1)/2`, since pixel centers are at integers.
+    /// Creates intrinsics with square pixels and the principal point in the middle of a `width ×
+    /// height` image: `cu = (width − 1)/2`, since pixel centers are at integers.
     ///
     /// # Errors
     /// As [`Intrinsics::new`].
@@ -74,10 +74,10 @@ impl Intrinsics {
         )
     }
 
-    /// The same camera after its image was resized by `factor` (0.5 halves both sides).
+    /// Returns the intrinsics after resizing the image by `factor` (0.5 halves both sides).
     ///
-    /// The image's corner (−0.5, −0.5) stays where it is, as in every resize that maps whole
-    /// pixels onto whole pixels: `cu' = (cu + 0.5) factor − 0.5`.
+    /// The image's corner (−0.5, −0.5) is preserved, as in every resize that maps whole pixels to
+    /// whole pixels: `cu' = (cu + 0.5) factor − 0.5`.
     ///
     /// # Errors
     /// As [`Intrinsics::new`].
@@ -90,7 +90,7 @@ impl Intrinsics {
         )
     }
 
-    /// The same camera with both focal lengths multiplied by a factor; its principal point stays.
+    /// Multiplies both focal lengths by a factor; the principal point does not change.
     ///
     /// # Errors
     /// As [`Intrinsics::new`].
@@ -111,8 +111,8 @@ impl Intrinsics {
         )
     }
 
-    /// The same camera after its image of size `from` was resized to `to`, whose shape may differ a
-    /// little.
+    /// Returns the intrinsics after resizing the image from size `from` to `to`, whose aspect ratio
+    /// may differ a little.
     ///
     /// * `from`, `to`: width and height, pixels
     ///
@@ -143,14 +143,14 @@ impl Intrinsics {
         )
     }
 
-    /// The same camera after its image was turned clockwise by so many quarters of a turn.
+    /// Returns the intrinsics after rotating the image clockwise by `quarters` times 90°.
     ///
-    /// * `size`: width and height before that, pixels
+    /// * `size`: width and height before the rotation, pixels
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::camera::Intrinsics;
-    /// // The pixel (u, v) of a 640 × 480 image comes to (479 − v, u).
+    /// // The pixel (u, v) of a 640 × 480 image moves to (479 − v, u).
     /// let upright = Intrinsics::new(500.0, 501.0, 320.0, 230.0)?.turned(1, (640, 480));
     /// assert_eq!(upright, Intrinsics::new(501.0, 500.0, 249.0, 320.0)?);
     /// # Ok(()) }
@@ -175,12 +175,12 @@ impl Intrinsics {
         }
     }
 
-    /// Focal length along u, pixels.
+    /// Returns the focal length along u, pixels.
     pub fn fu_px(&self) -> f64 {
         self.fu_px
     }
 
-    /// Focal length along v, pixels.
+    /// Returns the focal length along v, pixels.
     pub fn fv_px(&self) -> f64 {
         self.fv_px
     }
@@ -190,7 +190,7 @@ impl Intrinsics {
         Point2::new(self.cu_px, self.cv_px)
     }
 
-    /// The 3×3 matrix K.
+    /// Returns the 3×3 matrix K.
     #[rustfmt::skip]
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::new(
@@ -200,7 +200,7 @@ impl Intrinsics {
         )
     }
 
-    /// K⁻¹, in closed form.
+    /// Returns K⁻¹, in closed form.
     #[rustfmt::skip]
     pub fn inverse_matrix(&self) -> Matrix3<f64> {
         Matrix3::new(
@@ -210,8 +210,7 @@ impl Intrinsics {
         )
     }
 
-    /// The pixel where a point of the camera frame is seen:
-    /// `u = fu x/z + cu`, `v = fv y/z + cv`.
+    /// Projects a point of the camera frame: `u = fu x/z + cu`, `v = fv y/z + cv`.
     ///
     /// # Errors
     /// [`Error::PointBehindCamera`] unless `z > 0`.
@@ -220,7 +219,7 @@ impl Intrinsics {
             self.fu_px * x_in_cam.x / x_in_cam.z + self.cu_px,
             self.fv_px * x_in_cam.y / x_in_cam.z + self.cv_px,
         );
-        // A depth so small that the division overflows is in the center plane for our purposes.
+        // A depth so small that the division overflows counts as in the center plane.
         if x_in_cam.z > 0.0 && pixel.x.is_finite() && pixel.y.is_finite() {
             Ok(pixel)
         } else {
@@ -228,7 +227,7 @@ impl Intrinsics {
         }
     }
 
-    /// The ray through a pixel, in the camera frame, scaled to z = 1.
+    /// Returns the ray of a pixel, in the camera frame, scaled to z = 1.
     pub fn ray(&self, pixel: &Point2<f64>) -> Vector3<f64> {
         Vector3::new(
             (pixel.x - self.cu_px) / self.fu_px,

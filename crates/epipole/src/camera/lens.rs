@@ -1,4 +1,4 @@
-//! One lens, whichever model describes it.
+//! Lens distortion by any model.
 
 use super::{Distortion, Division, Fisheye, Intrinsics, LensKind, RationalDistortion};
 use crate::{Error, Result};
@@ -12,13 +12,13 @@ use nalgebra::{Matrix2x3, Point2, Vector3};
     serde(rename_all = "snake_case")
 )]
 pub enum Lens {
-    /// Five numbers, for usual lenses.
+    /// Five coefficients, for ordinary lenses.
     Brown(Distortion),
-    /// Eight numbers, for wide angles.
+    /// Eight coefficients, for wide-angle lenses.
     Rational(RationalDistortion),
-    /// Four numbers, for views of 120° and more.
+    /// Four coefficients, for fields of view of 120° and more.
     Fisheye(Fisheye),
-    /// One number.
+    /// One coefficient.
     Division(Division),
 }
 
@@ -30,11 +30,12 @@ const NOT_FINITE: Error = Error::NotFinite {
 pub(crate) const MAX_COEFFICIENTS: usize = 8;
 
 impl Lens {
-    /// A lens that bends nothing.
+    /// No distortion.
     pub const NONE: Self = Self::Brown(Distortion::NONE);
 
-    /// A lens from its numbers, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then k4, k5, k6
-    /// (rational); k1 to k4 (fisheye). The division model, which OpenCV does not have, has k alone.
+    /// Creates a lens from its coefficients, in OpenCV's order: k1, k2, p1, p2, k3 (Brown), then
+    /// k4, k5, k6 (rational); k1 to k4 (fisheye). The division model, which OpenCV lacks, has only
+    /// k.
     ///
     /// # Errors
     /// [`Error::SizeMismatch`] for another number of coefficients, [`Error::NotFinite`] for NaN and
@@ -63,7 +64,7 @@ impl Lens {
         Ok(Self::of(kind, all))
     }
 
-    /// From the first of these numbers, however many the model has.
+    /// Creates a lens from the first of these coefficients, as many as the model has.
     pub(crate) fn of(kind: LensKind, k: [f64; MAX_COEFFICIENTS]) -> Self {
         let brown = Distortion {
             k1: k[0],
@@ -85,7 +86,7 @@ impl Lens {
         }
     }
 
-    /// Which model it is.
+    /// Returns the model.
     pub fn kind(&self) -> LensKind {
         match self {
             Self::Brown(_) => LensKind::Brown,
@@ -95,12 +96,12 @@ impl Lens {
         }
     }
 
-    /// Its numbers, in OpenCV's order.
+    /// Returns the coefficients, in OpenCV's order.
     pub fn coefficients(&self) -> Vec<f64> {
         self.numbers()[..self.kind().num_coefficients()].to_vec()
     }
 
-    /// Its numbers, in OpenCV's order; those that the model lacks are 0.
+    /// Returns the coefficients, in OpenCV's order; those that the model lacks are 0.
     fn numbers(&self) -> [f64; MAX_COEFFICIENTS] {
         let brown =
             |d: &Distortion, [k4, k5, k6]: [f64; 3]| [d.k1, d.k2, d.p1, d.p2, d.k3, k4, k5, k6];
@@ -115,7 +116,7 @@ impl Lens {
         }
     }
 
-    /// Whether it bends nothing: a pinhole camera's.
+    /// Returns whether there is no distortion, as for a pinhole camera.
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }
@@ -129,7 +130,7 @@ impl Lens {
         }
     }
 
-    /// The lens with its first coefficients moved.
+    /// Adds to the first coefficients.
     pub(crate) fn moved(&self, by: &[f64]) -> Self {
         let mut numbers = self.numbers();
         for (number, by) in numbers.iter_mut().zip(by) {
@@ -138,8 +139,8 @@ impl Lens {
         Self::of(self.kind(), numbers)
     }
 
-    /// Distorted position of a point of the camera frame, in units of the focal length. `None` for
-    /// what the lens does not see: points behind the camera, except through a fisheye.
+    /// Returns the distorted position of a point of the camera frame, in units of the focal length.
+    /// `None` if the lens does not see it: points behind the camera, except with a fisheye.
     ///
     /// ```
     /// use epipole::camera::{Distortion, Lens};
@@ -159,8 +160,8 @@ impl Lens {
         (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
     }
 
-    /// Image of a point of the camera frame, in units of the focal length; not finite where there
-    /// is none. A point behind the camera is mirrored through the center, except by a fisheye.
+    /// Projects a point of the camera frame, in units of the focal length; not finite if there is
+    /// no image. A point behind the camera is mirrored through the center, except by a fisheye.
     #[inline]
     pub(crate) fn project_or_mirror(&self, p: &Vector3<f64>) -> Point2<f64> {
         match self {
@@ -180,8 +181,8 @@ impl Lens {
         }
     }
 
-    /// The pixel where a camera with these intrinsics sees a point of the camera frame; `None`
-    /// where [`project`](Self::project) is.
+    /// Returns the pixel of a point of the camera frame for these intrinsics; `None` as for
+    /// [`project`](Self::project).
     pub(crate) fn pixel(&self, k: &Intrinsics, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
         let seen = self.project(x_in_cam)?;
         let center = k.principal_point();
@@ -189,7 +190,7 @@ impl Lens {
         (pixel.x.is_finite() && pixel.y.is_finite()).then_some(pixel)
     }
 
-    /// The ray that is seen at a place, in the camera frame, of any length.
+    /// Returns the ray imaged at a position, in the camera frame, of any length.
     ///
     /// # Errors
     /// As [`Distortion::undistort`], [`RationalDistortion::undistort`] and [`Fisheye::ray`].
@@ -203,8 +204,8 @@ impl Lens {
         }
     }
 
-    /// The same lens after its image was turned clockwise by so many quarters of a turn, as
-    /// [`Intrinsics::turned`] has it: only tangential terms know of a direction.
+    /// Returns the lens after rotating its image clockwise by `quarters` times 90°, as
+    /// [`Intrinsics::turned`]: only tangential terms depend on direction.
     ///
     /// [`Intrinsics::turned`]: super::Intrinsics::turned
     ///
@@ -212,7 +213,7 @@ impl Lens {
     /// use epipole::camera::{Distortion, Lens};
     /// use nalgebra::{Point2, Vector3};
     /// let lens = Lens::Brown(Distortion { k1: -0.1, p1: 0.01, p2: 0.02, ..Distortion::NONE });
-    /// // What is right of the axis is below it then.
+    /// // The right side of the image is then at the bottom.
     /// let seen = lens.project(&Vector3::new(0.3, 0.1, 1.0)).unwrap();
     /// let turned = lens.turned(1).project(&Vector3::new(-0.1, 0.3, 1.0)).unwrap();
     /// assert!((turned - Point2::new(-seen.y, seen.x)).norm() < 1e-15);
@@ -236,7 +237,7 @@ impl Lens {
         }
     }
 
-    /// Whether the lens sees a ray inside of where its model folds.
+    /// Returns whether the lens sees a ray inside the fold of its model.
     pub fn is_seen(&self, x_in_cam: &Vector3<f64>) -> bool {
         let flat = Point2::from(x_in_cam.xy() / x_in_cam.z);
         match self {
@@ -247,8 +248,8 @@ impl Lens {
         }
     }
 
-    /// The derivatives of [`project`](Self::project) by the point and by the coefficients, those
-    /// that the model lacks 0.
+    /// Returns the derivatives of [`project`](Self::project) by the point and by the coefficients,
+    /// 0 for those that the model lacks.
     pub(crate) fn derivatives(
         &self,
         x_in_cam: &Vector3<f64>,
@@ -362,7 +363,7 @@ mod tests {
         }
     }
 
-    /// A fisheye without coefficients still is no pinhole camera.
+    /// A fisheye with zero coefficients is still no pinhole camera.
     #[test]
     fn only_a_fisheye_sees_behind_its_image_plane() {
         assert!(Lens::NONE.is_none() && !Lens::from(Fisheye::default()).is_none());

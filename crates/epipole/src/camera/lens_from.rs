@@ -1,4 +1,4 @@
-//! A lens from each of its models.
+//! Conversions from the models of lenses.
 
 use super::{Distortion, Division, Fisheye, Lens, RationalDistortion};
 

@@ -1,6 +1,6 @@
-//! The kinds of lens models.
+//! Kinds of lens models.
 
-/// The models of lenses.
+/// Lens model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(
     feature = "serde",
@@ -8,15 +8,15 @@
     serde(rename_all = "snake_case")
 )]
 pub enum LensKind {
-    /// Five numbers, for usual lenses: [`Distortion`](super::Distortion).
+    /// Five coefficients, for ordinary lenses: [`Distortion`](super::Distortion).
     #[default]
     Brown,
-    /// Eight numbers, for wide angles: [`RationalDistortion`](super::RationalDistortion).
+    /// Eight coefficients, for wide-angle lenses:
+    /// [`RationalDistortion`](super::RationalDistortion).
     Rational,
-    /// Four numbers, for views of 120° and more: [`Fisheye`](super::Fisheye).
+    /// Four coefficients, for fields of view of 120° and more: [`Fisheye`](super::Fisheye).
     Fisheye,
-    /// One number, where there is little to see of a lens that bends much:
-    /// [`Division`](super::Division).
+    /// One coefficient, for strong distortion with little data: [`Division`](super::Division).
     Division,
 }
 
@@ -31,7 +31,7 @@ impl LensKind {
         }
     }
 
-    /// Its name in files and results: brown, rational, fisheye or division.
+    /// Returns the name in files and results: brown, rational, fisheye or division.
     pub fn name(self) -> &'static str {
         match self {
             Self::Brown => "brown",

@@ -1,6 +1,6 @@
-//! Cameras: what turns a point in the world into a pixel.
+//! Cameras: projection of world points to pixels.
 //!
-//! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is intrinsics and a rigid
+//! A [`Camera`] is image size, intrinsics and lens; a [`PosedCamera`] is a camera with a rigid
 //! transform. Camera frame: x right, y down, z forward.
 
 mod calibrated;

@@ -1,8 +1,8 @@
-//! Poses and points while they are refined, whatever the lens.
+//! Poses and points during refinement, for any lens.
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
-/// `cam_from_world`, with its rotation as a matrix, too.
+/// `cam_from_world`, with its rotation also as a matrix.
 #[derive(Clone)]
 pub(crate) struct PoseState {
     pub(crate) rotation: UnitQuaternion<f64>,
@@ -25,8 +25,8 @@ impl PoseState {
         self.matrix * point.coords
     }
 
-    /// Derivatives by the six of [`PoseState::moved`] and by the point X, from `by_p`, the one by
-    /// `R X + t`.
+    /// Returns the derivatives by the six parameters of [`PoseState::moved`] and by the point X,
+    /// from `by_p`, the derivative by `R X + t`.
     #[inline]
     pub(crate) fn derivatives(
         &self,
@@ -39,8 +39,8 @@ impl PoseState {
         (by_pose, self.matrix.tr_mul(by_p).into())
     }
 
-    /// The camera's center `−Rᵀ t`, and the derivatives of its coordinates by the six of
-    /// [`PoseState::moved`].
+    /// Returns the camera's center `−Rᵀ t`, and the derivatives of its coordinates by the six
+    /// parameters of [`PoseState::moved`].
     pub(crate) fn center(&self) -> (Point3<f64>, [[f64; 6]; 3]) {
         let center = Point3::from(-self.matrix.tr_mul(&self.translation));
         // −Rᵀ exp(−δ) (t + d): the axis e moves by −(R e) · d + δ · (t × R e).
@@ -52,8 +52,8 @@ impl PoseState {
         (center, by_pose)
     }
 
-    /// `exp(δ) R` and `t + d` for the step (δ, d); the very same bits for a step of 0, so that a
-    /// held camera stays exactly.
+    /// Returns `exp(δ) R` and `t + d` for the step (δ, d); identical bits for a zero step, so that
+    /// a held camera does not move.
     pub(crate) fn moved(&self, step: [f64; 6]) -> Self {
         let [a, b, c, x, y, z] = step;
         let rotation = if [a, b, c] == [0.0; 3] {

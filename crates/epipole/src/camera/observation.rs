@@ -1,12 +1,12 @@
-//! A pixel of any lens with its ray.
+//! Observations: pixels with their rays, for any lens.
 
 use nalgebra::{Matrix2x3, Matrix3x2, Point2, Vector2, Vector3};
 
-/// A pixel, its ray, and the derivative of the pixel by the ray: all that pose and motion need of a
-/// lens.
+/// A pixel, its ray, and the derivative of the pixel by the ray: sufficient for estimating poses
+/// and motions with any lens.
 ///
-/// Residuals stay in pixels of the distorted photograph, because the derivative predicts where
-/// points near the ray are seen. A ray may point to the side or behind the camera.
+/// Residuals are in pixels of the distorted image, because the derivative predicts the projection
+/// of points near the ray. A ray may point sideways or behind the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {
     pixel: Point2<f64>,
@@ -17,12 +17,11 @@ pub struct Observation {
 
 impl Observation {
     /// * `pixel`: observed position
-    /// * `ray`: its direction in the camera frame, of any length but 0
-    /// * `px_by_ray`: the derivative of the pixel by a ray of length 1, pixels; it is 0 along the
-    ///   ray
+    /// * `ray`: direction in the camera frame, of any nonzero length
+    /// * `px_by_ray`: derivative of the pixel by a unit ray, pixels; it is 0 along the ray
     ///
-    /// `None` if these are not finite, or if a lateral step of the ray does not move the pixel, as
-    /// at the fold of a lens.
+    /// Returns `None` if these are not finite, or if a lateral step of the ray does not move the
+    /// pixel, as at the fold of a lens.
     ///
     /// ```
     /// use epipole::camera::Observation;
@@ -30,10 +29,10 @@ impl Observation {
     /// // A pinhole camera with a focal length of 100 pixels, and the ray of its principal point.
     /// let by_ray = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
     /// let seen = Observation::new(Point2::new(320.0, 240.0), Vector3::z(), by_ray).unwrap();
-    /// // A point 1/50 to the right is seen two pixels to the right.
+    /// // A point 1/50 to the right appears two pixels to the right.
     /// let off_px = seen.offset_px(&Vector3::new(0.1, 0.0, 5.0)).unwrap();
     /// assert!((off_px.x - 2.0).abs() < 1e-12 && off_px.y == 0.0);
-    /// // What is behind is not seen there at all.
+    /// // Points behind the camera are not seen there.
     /// assert_eq!(seen.offset_px(&-Vector3::z()), None);
     /// ```
     pub fn new(pixel: Point2<f64>, ray: Vector3<f64>, px_by_ray: Matrix2x3<f64>) -> Option<Self> {
@@ -53,36 +52,36 @@ impl Observation {
             })
     }
 
-    /// Its pixel.
+    /// Returns the pixel.
     pub fn pixel(&self) -> Point2<f64> {
         self.pixel
     }
 
-    /// The direction in the camera frame, of length 1.
+    /// Returns the unit direction in the camera frame.
     pub fn ray(&self) -> Vector3<f64> {
         self.ray
     }
 
-    /// The derivative of the ray, its length kept, by the pixel, 1/pixels.
+    /// Returns the derivative of the unit ray by the pixel, 1/pixels.
     pub fn ray_by_px(&self) -> Matrix3x2<f64> {
         self.ray_by_px
     }
 
-    /// Offset from the pixel to the projection of a point in the camera frame, pixels, to first
-    /// order: exact to 1 % or better for errors of some pixels. `None` for a point 90° or more off
-    /// the ray.
+    /// Returns the offset from the pixel to the projection of a point in the camera frame, pixels,
+    /// to first order: accurate to 1 % or better for errors of a few pixels. `None` for a point 90°
+    /// or more off the ray.
     pub fn offset_px(&self, x_in_cam: &Vector3<f64>) -> Option<Vector2<f64>> {
         let along = self.ray.dot(x_in_cam);
         (along > 0.0).then(|| self.px_by_ray * x_in_cam / along)
     }
 
-    /// The square of [`offset_px`](Self::offset_px); infinite where that is not known.
+    /// Returns the square of [`offset_px`](Self::offset_px); infinite if undefined.
     pub(crate) fn error_sq(&self, x_in_cam: &Vector3<f64>) -> f64 {
         let error_sq = self.offset_px(x_in_cam).map(|off| off.norm_squared());
         error_sq.unwrap_or(f64::INFINITY)
     }
 
-    /// [`offset_px`](Self::offset_px) with its derivative by the point.
+    /// Returns [`offset_px`](Self::offset_px) with its derivative by the point.
     pub(crate) fn offset_with_derivative(
         &self,
         x_in_cam: &Vector3<f64>,
@@ -114,7 +113,7 @@ mod tests {
             let point = 4.0 * at + 0.3 * Vector3::from_fn(|_, _| random.normal());
             let exact = k.project(&point.into()).unwrap() - pixel;
             let (off, by_point) = seen.offset_with_derivative(&point).unwrap();
-            // About the ray, a pinhole camera is one to first order.
+            // Near the ray this is first-order accurate for a pinhole camera.
             assert!((off - exact).norm() < 0.2 * exact.norm(), "{off} {exact}");
             let near = at + 1e-5 * (point - 4.0 * at);
             let exact = k.project(&near.into()).unwrap() - pixel;

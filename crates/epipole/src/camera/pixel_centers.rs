@@ -1,4 +1,4 @@
-//! From our pixel coordinates to those of programs that count from the corner, and back.
+//! Conversion between our pixel coordinates and those with the origin at the corner.
 
 use super::Intrinsics;
 use crate::Result;
@@ -25,7 +25,7 @@ pub fn pixel_to_colmap(pixel: &Point2<f64>) -> Point2<f64> {
     pixel + Vector2::repeat(HALF_PIXEL)
 }
 
-/// A pixel of COLMAP, with centers at halves, in our convention, with centers at integers: the
+/// Converts a pixel from COLMAP's convention, centers at halves, to ours, centers at integers: the
 /// inverse of [`pixel_to_colmap`].
 ///
 /// Source: COLMAP's documentation, "Output format", `images.txt`.
@@ -41,7 +41,8 @@ pub fn pixel_from_colmap(pixel: &Point2<f64>) -> Point2<f64> {
 }
 
 impl Intrinsics {
-    /// `[fx, fy, cx, cy]` of COLMAP's `PINHOLE` camera: the principal point is half a pixel ahead.
+    /// Returns `[fx, fy, cx, cy]` of COLMAP's `PINHOLE` camera: the principal point is half a pixel
+    /// larger.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -55,7 +56,7 @@ impl Intrinsics {
         [self.fu_px(), self.fv_px(), center.x, center.y]
     }
 
-    /// Intrinsics from `[fx, fy, cx, cy]` of COLMAP's `PINHOLE` camera: the inverse of
+    /// Creates intrinsics from `[fx, fy, cx, cy]` of COLMAP's `PINHOLE` camera: the inverse of
     /// [`Intrinsics::to_colmap`].
     ///
     /// # Errors

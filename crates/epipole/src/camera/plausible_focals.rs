@@ -1,20 +1,19 @@
-//! The range of focal lengths in which unknown ones are sought.
+//! Range of unknown focal lengths.
 
 use crate::math::order::at_rank;
 use core::ops::Range;
 
-/// The least focal length, in third quartiles of the distances of pixels from the principal point,
-/// of which a few wrong pixels far outside of the image move none.
+/// Minimum focal length, relative to the third quartile of the pixels' distances from the principal
+/// point, which is robust to a few outliers far outside the image.
 const LEAST_QUARTILES: f64 = 0.2;
 
-/// The greatest focal length, in distances of the farthest pixel: where three of four are in the
-/// middle of the image, the quartile would leave out long lenses.
+/// Maximum focal length, relative to the distance of the farthest pixel: if three quarters of the
+/// pixels are in the middle of the image, the quartile would exclude long lenses.
 const MOST_REACHES: f64 = 20.0;
 
-/// Focal lengths that are plausible for pixels, in pixels.
+/// Returns the range of plausible focal lengths for pixels, in pixels.
 ///
-/// * `distances_px`: of the pixels from their principal points, one at least; comes back in another
-///   order
+/// * `distances_px`: distances of the pixels from their principal points, at least one; reordered
 pub(crate) fn plausible_focals_px(distances_px: &mut [f64]) -> Range<f64> {
     let rank = distances_px.len() * 3 / 4;
     let quartile_px = at_rank(distances_px, rank);

@@ -4,7 +4,7 @@ use super::{Camera, RigidTransform};
 use crate::Result;
 use nalgebra::{Matrix3x4, Point2, Point3, Vector3};
 
-/// A camera in the world.
+/// A camera with its pose in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PosedCamera {
     /// Image size, intrinsics and lens.
@@ -14,30 +14,30 @@ pub struct PosedCamera {
 }
 
 impl PosedCamera {
-    /// The camera's center in the world, `C = −Rᵀ t`.
+    /// Returns the camera's center in the world, `C = −Rᵀ t`.
     pub fn center_in_world(&self) -> Point3<f64> {
         self.cam_from_world
             .inverse_transform_point(&Point3::origin())
     }
 
-    /// The 3×4 matrix `P = K [R t]`, for pixels without distortion such as those of
+    /// Returns the 3×4 matrix `P = K [R t]`, for undistorted pixels such as those of
     /// [`Camera::pinhole_pixel`].
     pub fn projection_matrix(&self) -> Matrix3x4<f64> {
         self.camera.intrinsics.matrix() * self.cam_from_world.to_matrix().fixed_view::<3, 4>(0, 0)
     }
 
-    /// The pixel where a point of the world is seen.
+    /// Projects a point of the world.
     ///
     /// # Errors
-    /// [`PointBehindCamera`](crate::Error::PointBehindCamera) if the lens does not see it.
+    /// [`PointBehindCamera`](crate::Error::PointBehindCamera) if the lens does not see the point.
     pub fn project(&self, x_in_world: &Point3<f64>) -> Result<Point2<f64>> {
         self.camera.project(&(self.cam_from_world * x_in_world))
     }
 
-    /// The direction of the ray through a pixel, in the world; it advances one unit of depth
-    /// (camera z) per unit of its length parameter, so it is not a unit vector.
+    /// Returns the direction of a pixel's ray in the world, scaled to unit depth (camera z), so it
+    /// is not a unit vector.
     ///
-    /// * `pinhole_pixel`: without distortion, such as that of [`Camera::pinhole_pixel`]
+    /// * `pinhole_pixel`: undistorted pixel, such as from [`Camera::pinhole_pixel`]
     pub fn ray_in_world(&self, pinhole_pixel: &Point2<f64>) -> Vector3<f64> {
         let ray = self.camera.intrinsics.ray(pinhole_pixel);
         self.cam_from_world.rotation.inverse_transform_vector(&ray)

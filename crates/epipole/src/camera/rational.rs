@@ -1,4 +1,4 @@
-//! Lens distortion by a quotient of polynomials, for wide-angle lenses.
+//! Lens distortion by a rational function, for wide-angle lenses.
 
 use super::Distortion;
 use super::unbend::{RESIDUAL, descend, radial_start};
@@ -6,12 +6,12 @@ use crate::math::real_roots::{DEGREE, real_roots};
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
-/// The bending of rays by a lens whose radial factor is a quotient, with r² = x² + y²:
+/// Distortion whose radial factor is a rational function, with r² = x² + y²:
 ///
 /// `(1 + k1 r² + k2 r⁴ + k3 r⁶) / (1 + k4 r² + k5 r⁴ + k6 r⁶)`
 ///
-/// The tangential terms are those of [`Distortion`]. These are OpenCV's first eight numbers, in the
-/// order k1, k2, p1, p2, k3, k4, k5, k6.
+/// The tangential terms are those of [`Distortion`]. These are OpenCV's first eight coefficients,
+/// in the order k1, k2, p1, p2, k3, k4, k5, k6.
 ///
 /// Source: Claus & Fitzgibbon 2005, "A rational function lens distortion model for general cameras"
 /// (the idea); the form is OpenCV's.
@@ -22,14 +22,14 @@ use nalgebra::{Matrix2, Point2};
     serde(default, deny_unknown_fields)
 )]
 pub struct RationalDistortion {
-    /// Above the line, and the tangential terms.
+    /// The numerator k1, k2, k3, and the tangential terms.
     pub numerator: Distortion,
-    /// k4, k5 and k6, below the line.
+    /// The denominator k4, k5 and k6.
     pub denominator: [f64; 3],
 }
 
 impl RationalDistortion {
-    /// The radial factor and its derivative by r².
+    /// Returns the radial factor and its derivative by r².
     fn factor(&self, r_sq: f64) -> (f64, f64) {
         let Distortion { k1, k2, k3, .. } = self.numerator;
         let [k4, k5, k6] = self.denominator;
@@ -41,7 +41,7 @@ impl RationalDistortion {
         (factor, (above_slope - factor * below_slope) / below)
     }
 
-    /// Distorted position of the ray (x, y, 1), in normalized coordinates.
+    /// Returns the distorted position of the ray (x, y, 1), in normalized coordinates.
     ///
     /// ```
     /// use epipole::camera::{Distortion, RationalDistortion};
@@ -61,7 +61,7 @@ impl RationalDistortion {
         )
     }
 
-    /// The derivative of [`distort`](Self::distort), rows x', y', columns x, y.
+    /// Returns the derivative of [`distort`](Self::distort), rows x', y', columns x, y.
     pub fn jacobian(&self, ray: &Point2<f64>) -> Matrix2<f64> {
         let (x, y) = (ray.x, ray.y);
         let (factor, slope) = self.factor(x * x + y * y);
@@ -77,8 +77,8 @@ impl RationalDistortion {
         )
     }
 
-    /// The derivatives of [`distort`](Self::distort) by the coefficients, in OpenCV's order: of x',
-    /// of y'.
+    /// Returns the derivatives of [`distort`](Self::distort) by the coefficients, in OpenCV's
+    /// order: of x' and of y'.
     pub fn by_coefficients(&self, ray: &Point2<f64>) -> [[f64; 8]; 2] {
         let (x, y) = (ray.x, ray.y);
         let r_sq = x * x + y * y;
@@ -97,11 +97,11 @@ impl RationalDistortion {
         ]
     }
 
-    /// The ray (x, y, 1) that is seen at a distorted place, inside the radius at which the radial
-    /// part stops growing.
+    /// Returns the ray (x, y, 1) imaged at a distorted position, inside the radius at which the
+    /// radial part stops growing.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] where no such ray is seen, [`Error::NotFinite`] for NaN or infinities.
+    /// [`Error::Degenerate`] if there is no ray, [`Error::NotFinite`] for NaN or infinities.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -137,8 +137,8 @@ impl RationalDistortion {
         }
     }
 
-    /// The squared radius at which the radial part stops growing, or has a pole; infinite if there
-    /// is none.
+    /// Returns the squared radius at which the radial part stops growing, or has a pole; infinite
+    /// if there is none.
     pub(crate) fn fold_sq(&self) -> f64 {
         let Distortion { k1, k2, k3, .. } = self.numerator;
         let [k4, k5, k6] = self.denominator;

@@ -1,4 +1,4 @@
-//! Rigid transforms between frames, and how to read their names.
+//! Rigid transforms between frames, and their naming.
 //!
 //! A transform is called `b_from_a` and is read from right to left:
 //! `x_in_b = b_from_a * x_in_a`, so `c_from_a = c_from_b * b_from_a`. The world-to-camera
@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaterni
 /// A rotation followed by a translation: `x_in_b = R x_in_a + t`.
 pub type RigidTransform = Isometry3<f64>;
 
-/// The matrix `[t]ₓ` with `[t]ₓ x = t × x` for every x.
+/// Returns the matrix `[t]ₓ` with `[t]ₓ x = t × x` for every x.
 ///
 /// Source: Hartley & Zisserman 2004, §A4.3.
 ///
@@ -24,7 +24,7 @@ pub fn cross_matrix(t: &Vector3<f64>) -> Matrix3<f64> {
     t.cross_matrix()
 }
 
-/// The motion between two cameras, `cam2_from_cam1 = cam2_from_world * cam1_from_world⁻¹`.
+/// Returns the motion between two cameras, `cam2_from_cam1 = cam2_from_world * cam1_from_world⁻¹`.
 pub fn relative_motion(
     cam1_from_world: &RigidTransform,
     cam2_from_world: &RigidTransform,
@@ -32,14 +32,14 @@ pub fn relative_motion(
     cam2_from_world * cam1_from_world.inverse()
 }
 
-/// `cam_from_world` of a camera at `center_in_world` that looks at `target_in_world`.
+/// Returns `cam_from_world` of a camera at `center_in_world` that looks at `target_in_world`.
 ///
-/// * `up_in_world`: roughly where up is in the picture; the camera's y axis (down) turns away
+/// * `up_in_world`: approximate up direction of the image; the camera's y axis (down) points away
 ///   from it
 ///
 /// # Errors
-/// [`Error::Degenerate`] if the target is the center, or `up_in_world` is zero or along the
-/// line of sight; [`Error::NotFinite`] for NaN and infinities.
+/// [`Error::Degenerate`] if the target is the center, or `up_in_world` is zero or along the viewing
+/// direction; [`Error::NotFinite`] for NaN and infinities.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

@@ -1,17 +1,17 @@
-//! From the place where a ray is seen back to the ray, for any lens that bends rays smoothly.
+//! Inversion of any smooth lens distortion.
 
 use nalgebra::{Matrix2, Point2};
 
-/// Steps after which undistortion gives up; five are usual.
+/// Maximum number of undistortion steps; five are usual.
 const MAX_STEPS: usize = 50;
-/// The residual at which it stops, in units of the focal length: 1e-9 px or better.
+/// Residual at which undistortion stops, in units of the focal length: 1e-9 px or better.
 pub(super) const RESIDUAL: f64 = 1e-13;
 
-/// Newton's method for the ray that is seen at a place, and how far off it is seen; steps that do
-/// not help, or lead to the fold, are halved.
+/// Runs Newton's method for the ray imaged at a position; returns it with its residual. Steps that
+/// do not help, or lead to the fold, are halved.
 ///
-/// * `fold_sq`: the squared radius that rays stay inside of
-/// * `distort`, `jacobian`: where a ray is seen, and the derivative of that
+/// * `fold_sq`: squared radius that bounds the rays
+/// * `distort`, `jacobian`: position of a ray's image, and its derivative
 pub(super) fn descend(
     seen: &Point2<f64>,
     start: Point2<f64>,
@@ -50,9 +50,10 @@ pub(super) fn descend(
     (ray, error)
 }
 
-/// The ray inside the fold that the radial terms alone would show at a place, or next to the fold.
+/// Returns the ray inside the fold imaged at a position by the radial terms alone, or a ray next to
+/// the fold.
 ///
-/// * `bent`: the radius at which a ray of a given radius is seen
+/// * `bent`: distorted radius of a ray with a given radius
 pub(super) fn radial_start(
     seen: &Point2<f64>,
     fold_sq: f64,
@@ -63,7 +64,7 @@ pub(super) fn radial_start(
     let mut high = if fold_sq.is_finite() {
         fold_sq.sqrt() * (1.0 - 1e-9)
     } else {
-        // Without a fold it grows at least as fast as a straight line, in the end.
+        // Without a fold it eventually grows at least linearly.
         let mut high = radius.max(f64::MIN_POSITIVE);
         for _ in 0..100 {
             if bent(high) >= radius {
