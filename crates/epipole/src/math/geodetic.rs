@@ -1,31 +1,30 @@
-//! Degrees of satellite navigation as meters around a place.
+//! Conversion of GPS coordinates to local meters.
 
 use crate::{Error, Result};
 use nalgebra::{Point3, Vector3};
 
-/// A place on the earth, as receivers of satellite navigation give it (WGS 84).
+/// A position on the earth, as from GPS (WGS 84).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Geodetic {
-    /// North of the equator, degrees: −90 to 90.
+    /// Latitude north of the equator, degrees: −90 to 90.
     pub latitude_deg: f64,
-    /// East of Greenwich, degrees: −180 to 180.
+    /// Longitude east of Greenwich, degrees: −180 to 180.
     pub longitude_deg: f64,
-    /// Above the ellipsoid, meters.
+    /// Height above the ellipsoid, meters.
     pub height_m: f64,
 }
 
-/// Half the larger axis of the earth's ellipsoid, meters.
+/// Semi-major axis of the earth's ellipsoid, meters.
 const SEMI_MAJOR_M: f64 = 6_378_137.0;
-/// Its flattening.
+/// Flattening of the earth's ellipsoid.
 const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
-/// East, north and up of a place in a frame of meters whose origin is another one, such as that of
-/// the first photograph. This is how [`PositionPrior`](crate::sfm::PositionPrior) wants it, in
-/// meters.
+/// Converts a position to east, north and up, in meters from an origin, such as the position of the
+/// first image. Suits [`PositionPrior`](crate::sfm::PositionPrior) in meters.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for a latitude or longitude that is none, [`Error::NotFinite`] for NaN and
-/// infinities, both of the place and of the origin.
+/// [`Error::OutOfRange`] for a latitude or longitude outside its range, [`Error::NotFinite`] for
+/// NaN and infinities, in the position or the origin.
 ///
 /// Source: Defense Mapping Agency 1991, "Department of Defense World Geodetic System 1984", TR
 /// 8350.2 (the ellipsoid, and coordinates from degrees).
@@ -36,7 +35,7 @@ const FLATTENING: f64 = 1.0 / 298.257_223_563;
 /// let tower = Geodetic { latitude_deg: 48.8583, longitude_deg: 2.2945, height_m: 80.0 };
 /// let north = Geodetic { latitude_deg: 48.8593, ..tower };
 /// let there = local_from_geodetic(&north, &tower)?;
-/// // A thousandth of a degree of latitude is some 111 meters.
+/// // A thousandth of a degree of latitude is about 111 meters.
 /// assert!(there.x.abs() < 1e-6 && (there.y - 111.2).abs() < 0.1);
 /// # Ok(()) }
 /// ```
@@ -87,13 +86,13 @@ impl Geodetic {
         Ok(())
     }
 
-    /// In the frame that turns with the earth, meters: x through Greenwich's meridian on the
-    /// equator, z through the pole.
+    /// Converts to the earth-centered frame, meters: x through Greenwich's meridian on the equator,
+    /// z through the pole.
     fn in_earth_frame(&self) -> Vector3<f64> {
         let (sin_lat, cos_lat) = libm::sincos(self.latitude_deg.to_radians());
         let (sin_lon, cos_lon) = libm::sincos(self.longitude_deg.to_radians());
         let eccentricity_sq = FLATTENING * (2.0 - FLATTENING);
-        // From the place along its plumb line to the earth's axis.
+        // Distance from the surface along the normal to the earth's axis.
         let to_axis = SEMI_MAJOR_M / (1.0 - eccentricity_sq * sin_lat * sin_lat).sqrt();
         let from_axis = (to_axis + self.height_m) * cos_lat;
         Vector3::new(

@@ -1,12 +1,12 @@
-//! Lengths of vectors where there are many.
+//! Fast vector lengths.
 
 use nalgebra::SVector;
 
-/// The length of a vector, the same bits as nalgebra's `norm`.
+/// Returns the length of a vector, with the same bits as nalgebra's `norm`.
 ///
-/// `norm` takes its square root from `libm`, like all that transcendental functions are asked of
-/// here, and without unstable features that computes it bit by bit in WebAssembly. A square root is
-/// rounded correctly everywhere, so the processor's own, one instruction, gives nothing else.
+/// `norm` takes its square root from `libm`, as all transcendental functions here do, which
+/// computes it bit by bit in WebAssembly. Square roots are correctly rounded everywhere, so the
+/// processor's instruction gives the same result.
 ///
 /// ```
 /// use epipole::math::length;

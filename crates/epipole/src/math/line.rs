@@ -3,25 +3,25 @@
 use crate::{Error, Result};
 use nalgebra::{Point2, Vector3};
 
-/// The line `a u + b v + c = 0`, scaled so that `a² + b² = 1`.
+/// Line `a u + b v + c = 0`, scaled so that `a² + b² = 1`.
 ///
-/// With this scale `a u + b v + c` is the distance of (u, v) from the line, signed: (a, b) is the
+/// With this scale `a u + b v + c` is the signed distance of (u, v) from the line: (a, b) is the
 /// unit normal and points to the positive side.
 ///
 /// Source: Hartley & Zisserman 2004, §2.2.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line2 {
-    /// The normal's component along u.
+    /// Component of the normal along u.
     pub a: f64,
-    /// The normal's component along v.
+    /// Component of the normal along v.
     pub b: f64,
-    /// Minus the signed distance of the origin along the normal.
+    /// Negated signed distance of the origin along the normal.
     pub c: f64,
 }
 
 impl Line2 {
-    /// The line through two points; its normal is the direction from `p` to `q`, turned by a
-    /// quarter turn from u towards v.
+    /// Creates the line through two points; its normal is the direction from `p` to `q`, rotated by
+    /// 90° from u towards v.
     ///
     /// # Errors
     /// [`Error::Degenerate`] if the points are equal, [`Error::NotFinite`] for NaN and infinities.
@@ -50,7 +50,7 @@ impl Line2 {
             });
         }
         let (a, b) = (-dv / length, du / length);
-        // The distance is measured from the midpoint, so that swapping p and q only flips signs.
+        // Measure the distance from the midpoint, so that swapping p and q only flips signs.
         let (mid_u, mid_v) = (0.5 * p.x + 0.5 * q.x, 0.5 * p.y + 0.5 * q.y);
         Ok(Self {
             a,
@@ -59,12 +59,11 @@ impl Line2 {
         })
     }
 
-    /// The line of the homogeneous vector (a, b, c), which any factor leaves the same line; the
-    /// sign is kept.
+    /// Creates the line of the homogeneous vector (a, b, c), at any scale; the sign is kept.
     ///
     /// # Errors
-    /// [`Error::Degenerate`] for (0, 0, c), which is the line at infinity or none,
-    /// [`Error::NotFinite`] for NaN and infinities.
+    /// [`Error::Degenerate`] for (0, 0, c), the line at infinity or no line, [`Error::NotFinite`]
+    /// for NaN and infinities.
     pub fn from_homogeneous(line: &Vector3<f64>) -> Result<Self> {
         if !line.iter().all(|x| x.is_finite()) {
             return Err(Error::NotFinite {
@@ -87,23 +86,23 @@ impl Line2 {
         }
     }
 
-    /// (a, b, c) as a homogeneous vector.
+    /// Returns (a, b, c) as a homogeneous vector.
     pub fn homogeneous(&self) -> Vector3<f64> {
         Vector3::new(self.a, self.b, self.c)
     }
 
-    /// Distance of `point` from the line, positive on the side of the normal (a, b).
+    /// Returns the distance of `point` from the line, positive on the side of the normal (a, b).
     pub fn signed_distance(&self, point: &Point2<f64>) -> f64 {
         self.a * point.x + self.b * point.y + self.c
     }
 
-    /// The point of the line that is nearest to `point`.
+    /// Returns the point of the line nearest to `point`.
     pub fn nearest(&self, point: &Point2<f64>) -> Point2<f64> {
         let distance = self.signed_distance(point);
         Point2::new(point.x - distance * self.a, point.y - distance * self.b)
     }
 
-    /// The angle from the u axis to the line, towards v, in (−π/2, π/2].
+    /// Returns the angle from the u axis to the line, towards v, in (−π/2, π/2].
     pub fn angle_rad(&self) -> f64 {
         if self.b == 0.0 {
             core::f64::consts::FRAC_PI_2

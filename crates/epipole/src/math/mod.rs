@@ -1,4 +1,4 @@
-//! Small mathematics that every room needs.
+//! Basic mathematics for all modules.
 
 mod geodetic;
 mod length;

@@ -1,7 +1,7 @@
-//! Loops over independent items that report to a monitor and stop when it cancels.
+//! Loops over independent items, with progress reports and cancellation.
 //!
-//! The caller's thread takes items like the others and reports before each. An item is computed by
-//! one thread from the same inputs, so the bits are the same for any number of threads.
+//! The caller's thread processes items like the others and reports before each. Each item is
+//! computed by one thread from the same inputs, so the bits do not depend on the number of threads.
 
 use crate::progress::{Monitor, Stage, Status};
 use crate::{Error, Result};
@@ -9,16 +9,16 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Number of items of [`map`] between two reports: few, because options can make an item slow.
+/// Number of items of [`map`] between two reports; small, because options can make an item slow.
 const CHUNK: usize = 4;
 
-/// Calls `job(n, reporter)` once for each n below `count`, in no order. A long job reports inside,
-/// too, and fails only as its reporter does.
+/// Calls `job(n, reporter)` once for each n below `count`, in any order. A long job may report
+/// progress itself, and fails only if its reporter does.
 ///
 /// Compiled once, since Rayon's loops are large.
 ///
 /// # Errors
-/// [`Error::Canceled`]: then some calls are missing.
+/// [`Error::Canceled`]: some calls were then skipped.
 pub(crate) fn for_each(
     count: usize,
     stage: Stage,
@@ -73,7 +73,7 @@ pub(crate) fn for_each_chunk<T: Send>(
     let chunk_len = chunk_len.max(1);
     let chunks: Vec<Mutex<&mut [T]>> = items.chunks_mut(chunk_len).map(Mutex::new).collect();
     for_each(chunks.len(), stage, monitor, &|n, _| {
-        // Never waits: each chunk is locked once.
+        // Never blocks: each chunk is locked once.
         if let Ok(mut chunk) = chunks[n].lock() {
             f(n * chunk_len, &mut chunk);
         }
@@ -81,7 +81,7 @@ pub(crate) fn for_each_chunk<T: Send>(
     })
 }
 
-/// `f` of each item, in the order of the items.
+/// Returns `f` of each item, in the order of the items.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -94,7 +94,7 @@ pub(crate) fn map<T: Sync, U: Send>(
     map_with(items, || (), stage, monitor, |(), item| f(item))
 }
 
-/// [`map`] with memory that calls reuse; results must not depend on its content.
+/// Runs [`map`] with memory that calls reuse; results must not depend on its content.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -121,8 +121,8 @@ pub(crate) fn map_with<T: Sync, U: Send, S: Send>(
     Ok(results.into_iter().flatten().collect())
 }
 
-/// Progress of one of several threads that share a loop: the caller's reports to the monitor, the
-/// others only learn whether it canceled.
+/// Progress of one of several threads in a loop: the caller's thread reports to the monitor, the
+/// others only see whether it canceled.
 pub(crate) struct Reporter<'a> {
     stage: Stage,
     monitor: Option<&'a mut dyn Monitor>,
@@ -131,7 +131,8 @@ pub(crate) struct Reporter<'a> {
 }
 
 impl<'a> Reporter<'a> {
-    /// Reporter of the caller's thread, whose part ranges over `shares` of the whole.
+    /// Creates the reporter of the caller's thread, whose progress goes from `shares[0]` to
+    /// `shares[1]`.
     pub(crate) fn of_caller(
         stage: Stage,
         monitor: &'a mut dyn Monitor,
@@ -146,7 +147,7 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// Reporter of another thread.
+    /// Creates the reporter of another thread.
     #[cfg_attr(
         not(feature = "parallel"),
         allow(dead_code, reason = "one thread has no others")
@@ -160,10 +161,10 @@ impl<'a> Reporter<'a> {
         }
     }
 
-    /// Before step `done` of `all`; every eighth is reported.
+    /// Reports before step `done` of `all`; only every eighth report is passed on.
     ///
     /// # Errors
-    /// [`Error::Canceled`] if it is time to stop.
+    /// [`Error::Canceled`] if the computation should stop.
     #[inline(never)]
     pub(crate) fn report(&mut self, done: usize, all: usize) -> Result<()> {
         if let (Some(monitor), true) = (&mut self.monitor, done.is_multiple_of(8)) {

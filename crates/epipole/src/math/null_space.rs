@@ -1,10 +1,11 @@
-//! Null vectors of small systems of linear equations.
+//! Null vectors of small linear systems.
 
-/// An orthonormal basis of the vectors orthogonal to all `rows`, for fewer rows than columns.
+/// Returns an orthonormal basis of the vectors orthogonal to all `rows`, for fewer rows than
+/// columns.
 ///
-/// * `K` rows of `N` numbers; `D = N − K` basis vectors come back
+/// * `K` rows of `N` numbers; returns `D = N − K` basis vectors
 ///
-/// If the rows are dependent there are more such vectors, and these are some of them.
+/// If the rows are dependent, returns only some of the null vectors.
 ///
 /// Source: Householder triangularization, Golub & Van Loan 2013, §5.2.
 pub(crate) fn null_space<const K: usize, const N: usize, const D: usize>(
@@ -13,11 +14,11 @@ pub(crate) fn null_space<const K: usize, const N: usize, const D: usize>(
     Reflections::new(rows).null_space()
 }
 
-/// Householder reflections that turn rows into a triangle: `rows = L Q` with L lower triangular.
+/// Householder reflections that triangularize rows: `rows = L Q` with L lower triangular.
 pub(crate) struct Reflections<const K: usize, const N: usize> {
     vectors: [[f64; N]; K],
     scales: [f64; K],
-    /// Part of each row that the rows before it leave: the size of the diagonal of L.
+    /// Norm of each row's component orthogonal to the previous rows: the diagonal of L.
     pub(crate) left: [f64; K],
 }
 
@@ -55,7 +56,7 @@ impl<const K: usize, const N: usize> Reflections<K, N> {
         }
     }
 
-    /// An orthonormal basis of the vectors orthogonal to all rows.
+    /// Returns an orthonormal basis of the vectors orthogonal to all rows.
     pub(crate) fn null_space<const D: usize>(&self) -> [[f64; N]; D] {
         const {
             assert!(
@@ -66,7 +67,7 @@ impl<const K: usize, const N: usize> Reflections<K, N> {
         let mut basis = [[0.0; N]; D];
         for (d, vector) in basis.iter_mut().enumerate() {
             vector[K + d] = 1.0;
-            // The last reflection comes first, and finds a single number.
+            // The last reflection comes first, with a single nonzero number.
             let (last, scale) = (&self.vectors[K - 1], self.scales[K - 1]);
             subtract(last, scale * last[K + d], K - 1, vector);
             for j in (0..K - 1).rev() {
@@ -93,13 +94,14 @@ fn subtract<const N: usize>(v: &[f64; N], factor: f64, from: usize, x: &mut [f64
     }
 }
 
-/// The singular values (largest first) of a tall matrix and its right singular vectors, one a row.
+/// Returns the singular values (largest first) of a tall matrix and its right singular vectors, one
+/// per row.
 ///
 /// * `num_rows`: any number; with fewer than `N` the last singular values are 0
-/// * `row`: the i-th row
+/// * `row`: returns the i-th row
 ///
-/// The rows are first reduced to a triangle by Householder reflections, block by block, so
-/// nothing is squared and nothing allocated.
+/// The rows are first reduced to a triangle by Householder reflections, block by block, so nothing
+/// is squared or allocated.
 ///
 /// Source: Golub & Van Loan 2013, §5.2 (QR), §8.6.3 (one-sided Jacobi).
 ///
@@ -124,7 +126,7 @@ pub fn right_singular_vectors<const N: usize>(
             *target = row(next + i);
         }
         next += count;
-        // Column by column: the vector that is reflected onto the diagonal has one entry in the
+        // Column by column: the vector to be reflected onto the diagonal has one entry in the
         // triangle and `count` entries in the block.
         for j in 0..N {
             let mut below_sq = 0.0;
@@ -156,10 +158,10 @@ pub fn right_singular_vectors<const N: usize>(
     one_sided_jacobi(triangle)
 }
 
-/// The singular values (largest first) of a square matrix and its right singular vectors, one a
-/// row.
+/// Returns the singular values (largest first) of a square matrix and its right singular vectors,
+/// one per row.
 pub(crate) fn one_sided_jacobi<const N: usize>(matrix: [[f64; N]; N]) -> ([f64; N], [[f64; N]; N]) {
-    // Columns of the matrix as rows of arrays, so that rotations run along memory.
+    // Columns of the matrix as contiguous arrays, so that rotations are contiguous in memory.
     let mut a = [[0.0; N]; N];
     let mut v = [[0.0; N]; N];
     for i in 0..N {

@@ -1,10 +1,9 @@
-//! Orders of things, found by one sort for all of them. The standard library's sorts are compiled
-//! anew for every type and every comparison, to 5 or 8 KB each; where few things are sorted, asking
-//! the comparison through a pointer costs nothing that could be measured.
+//! Sorting with little code. The standard library's sorts are compiled for every type and
+//! comparison, at 5 or 8 KB each; for short lists, an indirect comparison has no measurable cost.
 
 use std::cmp::Ordering;
 
-/// Puts indices in the order that `compare` says; those that it calls equal are in ascending order.
+/// Sorts indices by `compare`; equal ones are in ascending order.
 pub(crate) fn sort_indices(
     indices: &mut [usize],
     compare: &mut dyn FnMut(usize, usize) -> Ordering,
@@ -12,7 +11,7 @@ pub(crate) fn sort_indices(
     indices.sort_unstable_by(|&a, &b| compare(a, b).then(a.cmp(&b)));
 }
 
-/// The indices of `len` things in the order that `compare` says; equal things stay as they are.
+/// Returns the indices of `len` items sorted by `compare`; the sort is stable.
 pub(crate) fn order_by(
     len: usize,
     compare: &mut dyn FnMut(usize, usize) -> Ordering,
@@ -22,8 +21,7 @@ pub(crate) fn order_by(
     order
 }
 
-/// The value at a rank in ascending order, NaN last. Puts smaller values before it and larger ones
-/// behind it.
+/// Returns the value at a rank in ascending order, NaN last. Partitions the values around it.
 pub(crate) fn at_rank(values: &mut [f64], rank: usize) -> f64 {
     *values.select_nth_unstable_by(rank, f64::total_cmp).1
 }

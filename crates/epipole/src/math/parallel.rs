@@ -1,14 +1,14 @@
 //! Loops over independent items, on several threads with the feature `parallel`.
 //!
-//! One thread computes an item, from the same inputs in the same order, and results keep the order
-//! of the items. So the bits are the same for any number of threads.
+//! Each item is computed by one thread, from the same inputs in the same order, and results keep
+//! the order of the items. So the bits do not depend on the number of threads.
 
 use std::ops::Range;
 use std::sync::Mutex;
 
-/// Maximum number of jobs of a loop; more balance threads no better.
+/// Maximum number of jobs of a loop; more do not improve the load balance.
 const MAX_JOBS: usize = 256;
-/// Number of items from which [`for_each`] uses several threads; handing out fewer costs more.
+/// Minimum number of items for which [`for_each`] uses several threads.
 const MIN_ITEMS: usize = 8;
 
 fn num_threads() -> usize {
@@ -29,7 +29,7 @@ fn run(count: usize, job: &(dyn Fn(usize) + Sync)) {
     (0..count).for_each(job);
 }
 
-/// Number of items per job of a loop over `count` items.
+/// Returns the number of items per job of a loop over `count` items.
 fn job_len(count: usize) -> usize {
     let jobs = if num_threads() > 1 { MAX_JOBS } else { 1 };
     count.div_ceil(jobs).max(1)
@@ -49,7 +49,7 @@ pub(crate) fn for_each_chunk<T: Send>(
     }
     let chunks: Vec<Mutex<&mut [T]>> = items.chunks_mut(chunk_len).map(Mutex::new).collect();
     run(chunks.len(), &|n| {
-        // Never waits: each chunk is locked once.
+        // Never blocks: each chunk is locked once.
         if let Ok(mut chunk) = chunks[n].lock() {
             f(n * chunk_len, &mut chunk);
         }
@@ -70,7 +70,7 @@ pub(crate) fn for_each<T: Send>(items: &mut [T], f: impl Fn(usize, &mut T) + Syn
     });
 }
 
-/// Sums `f(i)` over `0..count`, in blocks of fixed size so that the order of additions does not
+/// Sums `f(i)` over `0..count`, in blocks of fixed size, so that the order of additions does not
 /// depend on the threads.
 pub(crate) fn sum(count: usize, f: impl Fn(usize) -> f64 + Sync) -> f64 {
     const BLOCK: usize = 256;
@@ -83,8 +83,8 @@ pub(crate) fn sum(count: usize, f: impl Fn(usize) -> f64 + Sync) -> f64 {
     partial.iter().sum()
 }
 
-/// `f` of each item, in the order of the items, with memory that calls reuse; results must not
-/// depend on its content.
+/// Returns `f` of each item, in the order of the items, with memory that calls reuse; results must
+/// not depend on its content.
 pub(crate) fn map_with<T: Sync, U: Send, S>(
     items: &[T],
     memory: impl Fn() -> S + Sync,
@@ -101,7 +101,7 @@ pub(crate) fn map_with<T: Sync, U: Send, S>(
     results.into_iter().flatten().collect()
 }
 
-/// The numbers below `count`, in pieces of `size`; the last one may be smaller.
+/// Splits the numbers below `count` into ranges of `size`; the last one may be smaller.
 pub(crate) fn pieces(count: usize, size: usize) -> Vec<Range<usize>> {
     let from = (0..count).step_by(size.max(1));
     from.map(|k| k..(k + size.max(1)).min(count)).collect()

@@ -1,6 +1,6 @@
 //! Real roots of quadratics and cubics. Coefficients run from the constant term upwards.
 
-/// Real roots of `c[0] + c[1] x + c[2] x²`; returns how many were written to the front of `roots`.
+/// Finds the real roots of `c[0] + c[1] x + c[2] x²`; returns the number written to `roots`.
 ///
 /// A double root counts once or twice, depending on rounding.
 pub(crate) fn quadratic_roots(c: [f64; 3], roots: &mut [f64; 2]) -> usize {
@@ -16,7 +16,7 @@ pub(crate) fn quadratic_roots(c: [f64; 3], roots: &mut [f64; 2]) -> usize {
     if discriminant < 0.0 || !discriminant.is_finite() {
         return 0;
     }
-    // The sum that does not cancel, then the other root from the product of both.
+    // The root whose sum does not cancel, then the other one from the product of both.
     let sum = -0.5 * (c1 + discriminant.sqrt().copysign(c1));
     let mut count = 0;
     for root in [sum / c2, if sum == 0.0 { sum } else { c0 / sum }] {
@@ -28,13 +28,13 @@ pub(crate) fn quadratic_roots(c: [f64; 3], roots: &mut [f64; 2]) -> usize {
     count
 }
 
-/// Real roots of `c[0] + c[1] x + c[2] x² + c[3] x³`; returns how many were written.
+/// Finds the real roots of `c[0] + c[1] x + c[2] x² + c[3] x³`; returns the number written.
 ///
-/// Source: Newton's method from beyond the extrema, where it converges without overshooting; then
-/// a quadratic for the others.
+/// Source: Newton's method from beyond the extrema, where it converges without overshooting; then a
+/// quadratic for the other roots.
 pub(crate) fn cubic_roots(c: [f64; 4], roots: &mut [f64; 3]) -> usize {
     let (p, q, r) = (c[2] / c[3], c[1] / c[3], c[0] / c[3]);
-    // Cubes of the coefficients must be numbers, too.
+    // Cubes of the coefficients must not overflow.
     let largest = p.abs().max(q.abs()).max(r.abs());
     if c[3] == 0.0 || largest > 1e100 {
         let mut two = [0.0; 2];
@@ -46,8 +46,8 @@ pub(crate) fn cubic_roots(c: [f64; 4], roots: &mut [f64; 3]) -> usize {
         return 0;
     };
     roots[0] = first;
-    // x³ + p x² + q x + r = (x − first)(x² + b x + d). Dividing out a large root loses less from
-    // the constant term upwards, a small one from the leading term downwards.
+    // x³ + p x² + q x + r = (x − first)(x² + b x + d). Dividing out a large root is more accurate
+    // from the constant term upwards, a small one from the leading term downwards.
     let (b, d) = if first * first * first.abs() > r.abs() && first != 0.0 {
         let d = -r / first;
         ((d - q) / first, d)
@@ -71,7 +71,7 @@ pub(crate) fn cubic_roots(c: [f64; 4], roots: &mut [f64; 3]) -> usize {
     count
 }
 
-/// One real root of `x³ + p x² + q x + r`: the outermost one on the side where only one is.
+/// Returns a real root of `x³ + p x² + q x + r`: the outermost one on the side with only one root.
 pub(crate) fn monic_cubic_root(p: f64, q: f64, r: f64) -> Option<f64> {
     let center = -p / 3.0;
     let value_at_center = ((center + p) * center + q) * center + r;
@@ -80,8 +80,8 @@ pub(crate) fn monic_cubic_root(p: f64, q: f64, r: f64) -> Option<f64> {
     // concave) up to the root.
     let mut x = if spread > 0.0 {
         let reach = 2.0 / 3.0 * spread.sqrt();
-        // If the extremum lies across zero, the root is between the center and the point as far
-        // from the center as the reach; else it is beyond.
+        // If the extremum is across zero, the root is between the center and the point at the
+        // distance of the reach from it; otherwise it is beyond.
         let start = center - reach.copysign(value_at_center);
         let value = ((start + p) * start + q) * start + r;
         if value == 0.0 {
@@ -122,7 +122,7 @@ pub(super) mod tests {
     use super::*;
     use crate::math::random::Random;
 
-    /// Coefficients of Π (x − root) times pairs without real roots.
+    /// Coefficients of Π (x − root), times quadratics without real roots.
     pub(in crate::math) fn expand(real: &[f64], complex: &[(f64, f64)]) -> Vec<f64> {
         let mut c = vec![1.0];
         let mut multiply = |factor: &[f64]| {
@@ -160,7 +160,7 @@ pub(super) mod tests {
             found.sort_by(f64::total_cmp);
             let size = three[0].abs().max(three[2].abs());
             for (f, t) in found.iter().zip(three) {
-                // Neighbouring roots lose digits.
+                // Close roots lose precision.
                 let gap = three
                     .iter()
                     .filter(|&&o| o != t)

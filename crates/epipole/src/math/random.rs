@@ -1,4 +1,4 @@
-//! Random numbers from a seed, the same on every platform.
+//! Seeded random numbers, identical on every platform.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
@@ -17,12 +17,12 @@ use rand_xoshiro::rand_core::{Rng, SeedableRng};
 pub struct Random(Xoshiro256PlusPlus);
 
 impl Random {
-    /// A stream that depends on nothing but `seed`.
+    /// Creates a stream that depends only on `seed`.
     pub fn new(seed: u64) -> Self {
         Self(Xoshiro256PlusPlus::seed_from_u64(seed))
     }
 
-    /// A whole number in `0..bound`, each equally likely; 0 if `bound` is 0.
+    /// Returns a uniform integer in `0..bound`; 0 if `bound` is 0.
     ///
     /// Source: Lemire 2019, "Fast random integer generation in an interval", algorithm 5.
     pub fn below(&mut self, bound: usize) -> usize {
@@ -40,17 +40,17 @@ impl Random {
         (product >> 64) as usize
     }
 
-    /// A number in [0, 1), uniform, in steps of 2⁻⁵³.
+    /// Returns a uniform number in [0, 1), in steps of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
-    /// A number in [`low`, `high`), uniform.
+    /// Returns a uniform number in [`low`, `high`).
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// A number from the normal distribution with mean 0 and standard deviation 1.
+    /// Returns a number from the normal distribution with mean 0 and standard deviation 1.
     ///
     /// Source: Marsaglia & Bray 1964, the polar method.
     pub fn normal(&mut self) -> f64 {
@@ -68,7 +68,7 @@ impl Random {
 mod tests {
     use super::*;
 
-    /// The stream is part of the contract: permalinks and worked numbers depend on it.
+    /// The stream is part of the API: permalinks and worked examples depend on it.
     #[test]
     fn stream_is_pinned() {
         let mut random = Random::new(7);

@@ -2,33 +2,33 @@
 
 use super::polynomial::quadratic_roots;
 
-/// The degree that [`real_roots`] is for.
+/// Degree of the polynomials of [`real_roots`].
 pub(crate) const DEGREE: usize = 10;
 
-/// Value of a polynomial with exact coefficients at a double root, due to rounding, as a share of
-/// the sum of its terms' sizes.
+/// Rounding error of a polynomial with exact coefficients at a double root, relative to the sum of
+/// its terms' magnitudes.
 #[cfg(test)]
 const ROUNDING: f64 = 1e-14;
 
-/// Newton's method takes six steps or so; halving takes one for each power of two between the ends
-/// and a root near zero.
+/// Maximum number of steps: Newton's method takes about six; bisection takes one for each power of
+/// two between the ends and a root near zero.
 const MAX_STEPS: usize = 1200;
 
-/// The last step to a root, relative to it.
+/// Relative size of the last step to a root.
 const LAST: f64 = 4.0 * f64::EPSILON;
-/// Newton's last step to a root of a derivative: the remaining error is its square, and the effect
-/// on an extremum's value the square of that.
+/// Relative size of Newton's last step to a root of a derivative: the remaining error is its
+/// square, and the effect on an extremum's value the square of that.
 const LAST_OF_DERIVATIVES: f64 = 1e-6;
 
-/// All real roots of a polynomial of degree 10 or less, in ascending order; returns how many were
-/// written.
+/// Finds all real roots of a polynomial of degree at most 10, in ascending order; returns the
+/// number written.
 ///
-/// A root is found whatever the sizes of the others: those with |x| ≤ 1 are sought in the
-/// polynomial, the others as inverses of roots of the reversed one, each in the scale of its
-/// neighborhood. Roots closer together than about 1e-7 of their size may be reported as one.
+/// Roots are found regardless of the sizes of the others: those with |x| ≤ 1 are sought in the
+/// polynomial, the others as inverses of roots of the reversed one, each at its own scale. Roots
+/// closer together than about 1e-7 of their size may be reported as one.
 ///
-/// * `noise`: an extremum whose value is below this share of the sum of its terms' sizes counts as
-///   a root, as errors of the coefficients may hide a double root there. At least 1e-14
+/// * `noise`: maximum value of an extremum, relative to the sum of its terms' magnitudes, to count
+///   as a root, as errors of the coefficients may hide a double root there. At least 1e-14
 ///
 /// Source: Yuksel 2022, "High-performance polynomial root finding for graphics", §3 (between roots
 /// of the derivative a polynomial is monotone).
@@ -40,7 +40,7 @@ pub(crate) fn real_roots(c: &[f64; DEGREE + 1], noise: f64, roots: &mut [f64; DE
     let inner = c.map(|x| x / largest);
     let mut outer = inner;
     outer.reverse();
-    // The same numbers for both, so that a root near an end is on one side of it.
+    // The same values for both, so that a root near an end is on exactly one side.
     let at_ends = [-1.0, 1.0].map(|x| value(&inner, DEGREE, x));
     let (near, far) = (
         roots_within(&inner, at_ends, noise),
@@ -85,7 +85,7 @@ pub(crate) fn real_roots(c: &[f64; DEGREE + 1], noise: f64, roots: &mut [f64; DE
     count
 }
 
-/// A few numbers in ascending order.
+/// A short list of numbers in ascending order.
 #[derive(Clone, Copy)]
 struct Ascending {
     numbers: [f64; DEGREE],
@@ -105,10 +105,10 @@ impl Ascending {
     }
 }
 
-/// A polynomial, with zeros for the powers that it does not have.
+/// A polynomial, with zeros for missing powers.
 type Row = [f64; DEGREE + 1];
 
-/// The value of a polynomial of at most this degree, by Estrin's scheme: a chain of four dependent
+/// Evaluates a polynomial of at most this degree by Estrin's scheme: a chain of four dependent
 /// sums, where Horner's scheme has ten.
 #[inline(always)]
 fn value(c: &Row, degree: usize, x: f64) -> f64 {
@@ -139,7 +139,7 @@ pub(super) fn size_of_terms(c: &[f64], x: f64) -> f64 {
     c.iter().rev().fold(0.0, |sum, c| sum * x.abs() + c.abs())
 }
 
-/// The roots in (−1, 1), given the values at its ends.
+/// Returns the roots in (−1, 1), given the values at its ends.
 fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
     // The derivatives: row k has degree 10 − k.
     let mut derivatives: [Row; DEGREE - 1] = [[0.0; DEGREE + 1]; DEGREE - 1];
@@ -184,7 +184,7 @@ fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
         extrema = crossings;
     }
     let mut roots = none;
-    // Whether the part to the left of an extremum has a root.
+    // Whether there is a root to the left of an extremum.
     let mut crossed = true;
     monotone_parts(c, DEGREE, at_ends, &extrema, |from, to| {
         let crosses = from.1 * to.1 < 0.0;
@@ -202,7 +202,7 @@ fn roots_within(c: &Row, at_ends: [f64; 2], noise: f64) -> Ascending {
     roots
 }
 
-/// Visits the parts of [−1, 1] between extrema: both ends, with the values there.
+/// Visits the parts of [−1, 1] between extrema: passes both ends and the values there.
 #[inline(always)]
 fn monotone_parts(
     c: &Row,
@@ -220,11 +220,11 @@ fn monotone_parts(
     part(from, (1.0, at_ends[1]));
 }
 
-/// The root between two places where the signs differ: Newton's method, with halving where it would
-/// leave the interval or is slow.
+/// Returns the root between two positions with different signs: Newton's method, with bisection if
+/// it would leave the interval or is slow.
 ///
-/// * `derivative`: of the polynomial `c`
-/// * `last_of_newton`: a step of Newton's method that is this share of the root is the last
+/// * `derivative`: derivative of the polynomial `c`
+/// * `last_of_newton`: relative size of the last Newton step
 fn root_between(
     c: &Row,
     derivative: &Row,
@@ -293,9 +293,9 @@ mod tests {
         }
     }
 
-    /// Real roots of any size and complex pairs: every root within the accuracy that its condition
-    /// allows, no more and no fewer. Polynomials whose roots may merge by rounding the coefficients
-    /// are skipped.
+    /// Finds real roots of any size next to complex pairs: every root within the accuracy that its
+    /// condition allows, no more and no fewer. Polynomials whose roots may merge when the
+    /// coefficients are rounded are skipped.
     fn lost_over_twelve_decades(trials: usize, seed: u64) -> (usize, usize) {
         let mut random = Random::new(seed);
         let (mut lost, mut judged) = (0, 0);
@@ -355,9 +355,10 @@ mod tests {
         assert!(lost == 0, "{lost} of {judged}");
     }
 
-    /// The first, of whole numbers with a root at an end of a part, is that of COLMAP's
-    /// src/colmap/math/polynomial_test.cc (FindPolynomialRootsCompanionMatrixZeroSolution), 10 x⁴ −
-    /// 5 x³ + 3 x² − 3 x, times (x² + 1)³; in the other one root is far away.
+    /// The first polynomial, with integer coefficients and a root at the end of a part, is from
+    /// COLMAP's src/colmap/math/polynomial_test.cc
+    /// (FindPolynomialRootsCompanionMatrixZeroSolution), 10 x⁴ − 5 x³ + 3 x² − 3 x, times (x² +
+    /// 1)³; the other one has a distant root.
     #[test]
     fn roots_that_were_lost() {
         let mut roots = [0.0; DEGREE];
@@ -380,7 +381,7 @@ mod tests {
         }
     }
 
-    /// Roots at ±1, where the two halves of the search meet, once and twice.
+    /// Single and double roots at ±1, where the two halves of the search meet.
     #[test]
     fn roots_at_one() {
         let mut roots = [0.0; DEGREE];
@@ -415,7 +416,7 @@ mod tests {
         let mut power = [0.0; 11];
         power[10] = 1.0;
         assert!(real_roots(&power, ROUNDING, &mut roots) <= 10);
-        // 1e-90 x⁹ − 1: of odd degree, with one root far away.
+        // 1e-90 x⁹ − 1: of odd degree, with one distant root.
         let mut lower = [0.0; 11];
         (lower[0], lower[9]) = (-1.0, 1e-90);
         assert_eq!(real_roots(&lower, ROUNDING, &mut roots), 1);

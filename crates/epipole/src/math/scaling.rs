@@ -1,21 +1,21 @@
-//! Powers of two: scales that change the size of numbers and none of their digits.
+//! Powers of two: exact scale factors.
 
 use nalgebra::Vector3;
 
-/// A power of two within a factor of two of `|x|`, for any finite x; clamped at either end of the
-/// range of numbers.
+/// Returns a power of two within a factor of two of `|x|`, for any finite x; clamped at either end
+/// of the number range.
 ///
-/// Division by it is exact, so values whose squares would overflow or underflow can be scaled and
-/// scaled back without error.
+/// Division by it is exact, so values whose squares would overflow or underflow can be scaled back
+/// and forth without error.
 #[inline]
 pub(crate) fn power_of_two(x: f64) -> f64 {
     const EXPONENT_BITS: u64 = 0x7ff;
     let exponent = (x.to_bits() >> 52) & EXPONENT_BITS;
-    // The ends are left out so that the inverse is a number, too.
+    // The extreme exponents are excluded so that the inverse is finite.
     f64::from_bits(exponent.clamp(1, EXPONENT_BITS - 2) << 52)
 }
 
-/// The unit vector in a direction of any length; `None` for zero, NaN and infinities.
+/// Returns the unit vector in a direction of any length; `None` for zero, NaN and infinities.
 #[inline]
 pub(crate) fn unit(vector: &Vector3<f64>) -> Option<Vector3<f64>> {
     let largest = vector.amax();

@@ -1,4 +1,4 @@
-//! One kernel, compiled twice: for every processor, and for those with AVX2.
+//! Kernels compiled twice: for every processor, and for those with AVX2.
 //!
 //! The body is ordinary Rust that the compiler vectorizes; the second copy only lets it use wider
 //! registers. The compiler neither reorders floating-point sums nor fuses a multiplication with an
@@ -9,16 +9,16 @@
     reason = "calling what was compiled for AVX2 is unsafe; each call follows the check of the processor"
 )]
 
-/// A value at the start of a cache line.
+/// A value aligned to a cache line.
 ///
-/// A vector store across two lines takes twice as long. The stack gives arrays of numbers only 16
-/// bytes, so sums of lanes that stay in memory are slow or quick by the depth of the stack.
+/// A vector store across two lines takes twice as long. The stack aligns arrays of numbers only to
+/// 16 bytes, so the speed of lane sums in memory would depend on the depth of the stack.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(64))]
 pub(crate) struct Aligned<T>(pub(crate) T);
 
-/// Defines a function whose body is compiled for the baseline and again for AVX2, and which picks
-/// by the processor it runs on.
+/// Defines a function whose body is compiled for the baseline and for AVX2, and which selects one
+/// at run time.
 macro_rules! dispatched {
     ($(#[$meta:meta])* $vis:vis fn $name:ident $(<$(const $constant:ident: $kind:ty),+>)?
         ($($argument:ident: $type:ty),* $(,)?) $(-> $output:ty)? $body:block) => {
@@ -42,7 +42,7 @@ macro_rules! dispatched {
                 if std::is_x86_feature_detected!("avx2")
                     && std::is_x86_feature_detected!("popcnt")
                 {
-                    // SAFETY: the processor has both features, as was just checked.
+                    // SAFETY: the processor has both features, as checked above.
                     return unsafe { wide $(::<$($constant),+>)? ($($argument),*) };
                 }
             }

@@ -1,20 +1,20 @@
-//! The singular value decomposition of a 3×3 matrix.
+//! Singular value decomposition of a 3×3 matrix.
 
 use super::length;
 use nalgebra::{Matrix3, Vector3};
 
-/// `A = U diag(singular_values) Vᵀ`.
+/// The decomposition `A = U diag(singular_values) Vᵀ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Svd3 {
-    /// Orthogonal; its columns are the left singular vectors.
+    /// Orthogonal matrix whose columns are the left singular vectors.
     pub u: Matrix3<f64>,
-    /// Largest first, none negative.
+    /// Singular values, largest first, none negative.
     pub singular_values: Vector3<f64>,
-    /// Orthogonal; its columns are the right singular vectors.
+    /// Orthogonal matrix whose columns are the right singular vectors.
     pub v: Matrix3<f64>,
 }
 
-/// The singular value decomposition of a finite 3×3 matrix.
+/// Computes the singular value decomposition of a finite 3×3 matrix.
 ///
 /// U and V are orthogonal for every input, also of rank 0, 1 or 2; their determinants are 1 or
 /// −1. Small singular values are accurate relative to the largest one.
@@ -28,10 +28,10 @@ pub struct Svd3 {
 /// assert_eq!(svd.singular_values, Vector3::new(3.0, 2.0, 1.0));
 /// ```
 pub fn svd3(matrix: &Matrix3<f64>) -> Svd3 {
-    // Squares of very large or small entries would overflow or vanish.
+    // Squares of very large or small entries would overflow or underflow.
     let scale = matrix.amax();
     let scale = if scale > 0.0 { scale } else { 1.0 };
-    // Rotating the columns of A pairwise until they are orthogonal gives A V = U Σ.
+    // Rotate the columns of A pairwise until they are orthogonal: A V = U Σ.
     let mut a = matrix / scale;
     let mut v = Matrix3::identity();
     for _ in 0..30 {
@@ -64,7 +64,7 @@ pub fn svd3(matrix: &Matrix3<f64>) -> Svd3 {
     let v = Matrix3::from_columns(&order.map(|i| v.column(i).into_owned()));
     let columns = order.map(|i| a.column(i).into_owned());
 
-    // Columns of U whose singular value is rounding noise are filled up to an orthogonal matrix.
+    // Columns of U whose singular value is rounding error are completed to an orthogonal matrix.
     let noise = 1e-15 * singular_values[0];
     let u1 = columns[0]
         .try_normalize(f64::MIN_POSITIVE)
@@ -84,7 +84,7 @@ pub fn svd3(matrix: &Matrix3<f64>) -> Svd3 {
     }
 }
 
-/// A unit vector perpendicular to a unit vector.
+/// Returns a unit vector perpendicular to a unit vector.
 pub(crate) fn perpendicular(direction: &Vector3<f64>) -> Vector3<f64> {
     let axis = match direction.iamin() {
         0 => Vector3::x(),
@@ -94,8 +94,8 @@ pub(crate) fn perpendicular(direction: &Vector3<f64>) -> Vector3<f64> {
     direction.cross(&axis).normalize()
 }
 
-/// The orthogonal matrix nearest to a matrix: of a product of many rotations, which drifts from
-/// orthogonality, the rotation that was meant.
+/// Returns the orthogonal matrix nearest to a matrix, for products of many rotations, which lose
+/// orthogonality by rounding.
 pub(crate) fn nearest_orthogonal(matrix: &Matrix3<f64>) -> Matrix3<f64> {
     let svd = svd3(matrix);
     svd.u * svd.v.transpose()

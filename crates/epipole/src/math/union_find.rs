@@ -1,6 +1,6 @@
 //! Disjoint sets.
 
-/// Disjoint sets over `0..n` that can be joined.
+/// Disjoint sets over `0..n` with union.
 ///
 /// Source: Tarjan 1975, with path halving and union by size.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ impl UnionFind {
         }
     }
 
-    /// The representative of the set that holds `item`.
+    /// Returns the representative of the set that contains `item`.
     pub(crate) fn root(&mut self, item: usize) -> usize {
         let mut item = item;
         while self.parent[item] as usize != item {
@@ -27,7 +27,7 @@ impl UnionFind {
         item
     }
 
-    /// Joins two sets; false if they were one already.
+    /// Joins two sets; returns false if they were already joined.
     pub(crate) fn join(&mut self, a: usize, b: usize) -> bool {
         let (mut a, mut b) = (self.root(a), self.root(b));
         if a == b {
