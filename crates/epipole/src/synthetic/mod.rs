@@ -1,7 +1,7 @@
-//! Random points seen by known cameras: problems whose answer is known.
+//! Synthetic scenes with random points and known cameras.
 //!
-//! The idea of a generated dataset with noise and outliers as a test bench for reconstruction is
-//! that of COLMAP's synthetic datasets; the generators here are our own.
+//! The idea of generated datasets with noise and outliers for testing reconstruction is from
+//! COLMAP's synthetic datasets; the generators here are our own.
 
 mod multi_view;
 mod two_view;
@@ -14,7 +14,7 @@ use crate::math::random::Random;
 use crate::{Error, Result};
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Structure of the points of a world.
+/// Structure of the points of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -22,18 +22,18 @@ use nalgebra::{Point2, Point3, Vector3};
     serde(rename_all = "snake_case")
 )]
 pub enum Structure {
-    /// Anywhere in a cube of this half side, meters.
+    /// Points in a cube.
     Cube {
-        /// Half of its side, meters.
+        /// Half of the cube's side, meters.
         half_side_m: f64,
     },
-    /// On one square plane, tilted by half a radian about the vertical: the case in which a
-    /// homography explains everything.
+    /// Points on a square plane, tilted by half a radian about the vertical: a homography explains
+    /// everything.
     Plane {
         /// Half of the square's side, meters.
         half_side_m: f64,
     },
-    /// On two planes that meet in a vertical edge at right angles, like the corner of a house.
+    /// Points on two perpendicular planes that meet in a vertical edge, like the corner of a house.
     Corner {
         /// Width and half height of each wall, meters.
         half_side_m: f64,
@@ -49,7 +49,7 @@ impl Structure {
         }
     }
 
-    /// A point around the world's origin, y down.
+    /// Draws a point around the world's origin, y down.
     fn draw(self, random: &mut Random) -> Point3<f64> {
         let half = self.half_side_m();
         let (a, b) = (random.uniform(-half, half), random.uniform(-half, half));
@@ -60,7 +60,7 @@ impl Structure {
                 Point3::new(a * cos, b, a * sin)
             }
             Self::Corner { .. } => {
-                // The edge is nearest to a camera at negative z, the walls run back from it.
+                // The edge is closest to a camera at negative z; the walls recede from it.
                 let diagonal = std::f64::consts::FRAC_1_SQRT_2;
                 Point3::new(a * diagonal, b, (a.abs() - half / 2.0) * diagonal)
             }
@@ -68,7 +68,7 @@ impl Structure {
     }
 }
 
-/// Checks what all worlds share.
+/// Checks the common parameters of all scenes.
 fn check_world(structure: Structure, noise_px: f64, outlier_fraction: f64) -> Result<()> {
     Error::check_range(
         "the half side of the structure",
@@ -90,7 +90,7 @@ fn check_world(structure: Structure, noise_px: f64, outlier_fraction: f64) -> Re
     )
 }
 
-/// The picture that all cameras of a world take: 640 × 480, focal length 600 px.
+/// Image size of all cameras of a scene: 640 × 480, focal length 600 px.
 const WIDTH: u32 = 640;
 const HEIGHT: u32 = 480;
 
@@ -98,7 +98,7 @@ fn intrinsics() -> Intrinsics {
     Intrinsics::centered(600.0, WIDTH, HEIGHT).expect("600 px is a focal length")
 }
 
-/// An upright camera at a place, looking at another.
+/// Returns an upright camera at a position that looks at a target.
 fn camera_at(center: &Point3<f64>, target: &Point3<f64>) -> Result<PosedCamera> {
     Ok(PosedCamera {
         camera: Camera::pinhole(intrinsics(), 640, 480),
@@ -111,16 +111,16 @@ fn in_picture(pixel: &Point2<f64>) -> bool {
         && (0.0..=f64::from(HEIGHT - 1)).contains(&pixel.y)
 }
 
-/// Pixel where a camera sees a point, if that is in its image.
+/// Returns the pixel of a point, if it is in the camera's image.
 fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>> {
     camera.project(x_in_world).ok().filter(in_picture)
 }
 
-/// Draws points until `num` of them are seen: `see` takes a point and its index, and says whether
-/// it is.
+/// Draws points until `num` of them are seen: `see` takes a point and its index, and returns
+/// whether it is seen.
 ///
 /// # Errors
-/// `nothing` after a thousand draws a point.
+/// `nothing` after a thousand attempts per point.
 fn draw_points(
     random: &mut Random,
     structure: Structure,
@@ -143,7 +143,7 @@ fn draw_points(
     Ok(points)
 }
 
-/// Measurement of a pixel: with noise, or wrong.
+/// Returns a measurement of a pixel: with noise, or wrong.
 fn measured(
     random: &mut Random,
     pixel: &Point2<f64>,
@@ -159,21 +159,21 @@ fn measured(
     )
 }
 
-/// A wrong pixel: anywhere in the picture, but not near the right one.
+/// Returns a wrong pixel: anywhere in the image, but not near the true one.
 fn wrong(random: &mut Random, right: &Point2<f64>) -> Point2<f64> {
     loop {
         let pixel = Point2::new(
             random.uniform(0.0, f64::from(WIDTH - 1)),
             random.uniform(0.0, f64::from(HEIGHT - 1)),
         );
-        // All but a small disc of the picture passes, so this ends soon.
+        // Only a small disc is excluded, so this ends soon.
         if (pixel - right).norm() > 20.0 {
             return pixel;
         }
     }
 }
 
-/// Which of `num` things are inliers: all but exactly `round(fraction × num)`, chosen at random.
+/// Chooses which of `num` items are inliers: all but exactly `round(fraction × num)`, at random.
 fn choose_inliers(random: &mut Random, num: usize, outlier_fraction: f64) -> Vec<bool> {
     let num_outliers = (outlier_fraction * num as f64).round() as usize;
     let mut is_inlier = vec![true; num];

@@ -1,4 +1,4 @@
-//! Many cameras on a path around the points that they see.
+//! Many cameras on a path around the points.
 
 use super::{Structure, camera_at, check_world, choose_inliers, draw_points, measured, observe};
 use crate::camera::PosedCamera;
@@ -15,18 +15,19 @@ use nalgebra::{Point2, Point3, Vector3};
     serde(rename_all = "snake_case")
 )]
 pub enum Path {
-    /// On an arc around the world's origin, looking at it; `span_rad` = 2π closes the circle.
+    /// Arc around the world's origin, with cameras looking at it; `span_rad` = 2π closes the
+    /// circle.
     Arc {
         /// Distance from the origin, meters.
         radius_m: f64,
         /// Angle from the first to the last camera (for 2π: to the first again), radians.
         span_rad: f64,
     },
-    /// On a straight line along x at a distance in front of the points, all looking along +z.
+    /// Straight line along x at a distance in front of the points, with cameras looking along +z.
     Line {
         /// Distance from the origin, meters.
         distance_m: f64,
-        /// From one camera to the next, meters.
+        /// Distance between consecutive cameras, meters.
         spacing_m: f64,
     },
 }
@@ -49,18 +50,18 @@ pub struct MultiViewProblemOptions {
     pub structure: Structure,
     /// Positions of the cameras.
     pub path: Path,
-    /// Part of the observations that are made, 0 to 1; 1 for every point in every picture.
+    /// Fraction of the observations made, 0 to 1; 1 for every point in every image.
     pub visible_fraction: f64,
-    /// Standard deviation of the Gaussian error of each coordinate of each pixel, pixels.
+    /// Standard deviation of the Gaussian noise of each pixel coordinate, pixels.
     pub noise_px: f64,
-    /// Part of the observations whose pixel is wrong, 0 to 1.
+    /// Fraction of the observations with a wrong pixel, 0 to 1.
     pub outlier_fraction: f64,
-    /// Everything random depends on it alone.
+    /// Seed of all randomness.
     pub seed: u64,
 }
 
 impl Default for MultiViewProblemOptions {
-    /// Eight cameras on an arc of a radian, 200 points of a cube, exact.
+    /// Returns eight cameras on an arc of a radian and 200 points of a cube, without noise.
     fn default() -> Self {
         Self {
             num_cameras: 8,
@@ -87,18 +88,18 @@ pub struct Sighting {
     pub point: usize,
     /// The measured pixel.
     pub pixel: Point2<f64>,
-    /// Whether it is right up to noise; a wrong one is at least 20 px off.
+    /// Whether it is correct up to noise; a wrong one is at least 20 px off.
     pub is_inlier: bool,
 }
 
-/// Cameras, points and who sees what where, in pictures of 640 × 480 pixels.
+/// Cameras, points and observations, in images of 640 × 480 pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MultiViewProblem {
     /// The true cameras.
     pub cameras: Vec<PosedCamera>,
     /// The true points, in the world.
     pub points: Vec<Point3<f64>>,
-    /// All observations: by point, and of one point by camera.
+    /// All observations, sorted by point, then by camera.
     pub observations: Vec<Sighting>,
 }
 
@@ -106,14 +107,14 @@ impl MultiViewProblem {
     /// Draws a problem.
     ///
     /// # Errors
-    /// [`Error::TooFew`] for less than two cameras; [`Error::NotFinite`] or [`Error::OutOfRange`]
-    /// for options that make no sense; [`Error::Degenerate`] if too few points are seen twice.
+    /// [`Error::TooFew`] for fewer than two cameras; [`Error::NotFinite`] or [`Error::OutOfRange`]
+    /// for invalid options; [`Error::Degenerate`] if too few points are seen twice.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::synthetic::{MultiViewProblemOptions, MultiViewProblem};
     /// let problem = MultiViewProblem::new(&MultiViewProblemOptions::default())?;
-    /// // The whole cube is in every picture.
+    /// // The whole cube is in every image.
     /// assert_eq!(problem.observations.len(), 8 * 200);
     /// let seen = problem.observations[17];
     /// let exact = problem.cameras[seen.camera].project(&problem.points[seen.point])?;
@@ -182,8 +183,8 @@ impl MultiViewProblem {
         })
     }
 
-    /// The observations of each point, as ranges into [`MultiViewProblem::observations`]: the
-    /// tracks.
+    /// Returns the tracks: the observations of each point, as ranges into
+    /// [`MultiViewProblem::observations`].
     pub fn tracks(&self) -> Vec<std::ops::Range<usize>> {
         let mut start = 0;
         (0..self.points.len())
@@ -214,7 +215,7 @@ fn cameras(options: &MultiViewProblemOptions) -> Result<Vec<PosedCamera>> {
                 span_rad,
                 0.0..=circle,
             )?;
-            // The last camera of a full circle must not be the first again.
+            // The last camera of a full circle must not coincide with the first.
             let num_steps = if span_rad < circle { num - 1.0 } else { num };
             (0..options.num_cameras)
                 .map(|i| {

@@ -1,4 +1,4 @@
-//! Two cameras and the points that both see.
+//! Two cameras and their common points.
 
 use super::{
     Structure, WIDTH, camera_at, check_world, choose_inliers, draw_points, measured, observe,
@@ -19,24 +19,24 @@ use nalgebra::{Point2, Point3};
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct TwoViewProblemOptions {
-    /// Number of matches, inliers and outliers together.
+    /// Number of matches, including outliers.
     pub num_points: usize,
     /// Structure of the points, around the world's origin.
     pub structure: Structure,
-    /// Distance between the camera centers, meters; 0 for a camera that only turns.
+    /// Distance between the camera centers, meters; 0 for a pure rotation.
     pub baseline_m: f64,
     /// Distance of the first camera from the world's origin, meters.
     pub distance_m: f64,
-    /// Standard deviation of the Gaussian error of each coordinate of each pixel, pixels.
+    /// Standard deviation of the Gaussian noise of each pixel coordinate, pixels.
     pub noise_px: f64,
-    /// Part of the matches whose second pixel is wrong, 0 to 1.
+    /// Fraction of the matches with a wrong second pixel, 0 to 1.
     pub outlier_fraction: f64,
-    /// Everything random depends on it alone.
+    /// Seed of all randomness.
     pub seed: u64,
 }
 
 impl Default for TwoViewProblemOptions {
-    /// A hundred exact matches of a cube of 2 m, seen from 5 m with a baseline of 1 m.
+    /// Returns a hundred noise-free matches of a cube of 2 m, seen from 5 m with a baseline of 1 m.
     fn default() -> Self {
         Self {
             num_points: 100,
@@ -50,21 +50,21 @@ impl Default for TwoViewProblemOptions {
     }
 }
 
-/// Matches between two pictures of 640 × 480 pixels, with the truth about them.
+/// Matches between two images of 640 × 480 pixels, with ground truth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TwoViewProblem {
     /// The first camera, at (0, 0, −distance), which looks along +z.
     pub camera1: PosedCamera,
-    /// The second camera, to the right of it, which looks at the world's origin.
+    /// The second camera, to the right of the first, which looks at the world's origin.
     pub camera2: PosedCamera,
-    /// Measured pixels in the first picture.
+    /// Measured pixels in the first image.
     pub pixels1: Vec<Point2<f64>>,
-    /// Their matches in the second picture.
+    /// Their matches in the second image.
     pub pixels2: Vec<Point2<f64>>,
-    /// Whether a match is right up to noise. A wrong one is at least 20 px from the right pixel,
+    /// Whether a match is correct up to noise. A wrong one is at least 20 px from the true pixel,
     /// but may lie on the epipolar line by chance.
     pub is_inlier: Vec<bool>,
-    /// The points, in the world; of an outlier the point of its first pixel.
+    /// The points, in the world; for an outlier the point of its first pixel.
     pub points: Vec<Point3<f64>>,
 }
 
@@ -72,8 +72,8 @@ impl TwoViewProblem {
     /// Draws a problem.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] or [`Error::OutOfRange`] for options that make no sense;
-    /// [`Error::Degenerate`] if the cameras have too little in common to see `num_points` points.
+    /// [`Error::NotFinite`] or [`Error::OutOfRange`] for invalid options; [`Error::Degenerate`] if
+    /// the cameras' overlap is too small for `num_points` points.
     ///
     /// ```
     /// # fn main() -> Result<(), epipole::Error> {
@@ -104,7 +104,7 @@ impl TwoViewProblem {
             options.distance_m,
             1e-3..=1e4,
         )?;
-        // On a circle around the origin, so that both are equally far.
+        // On a circle around the origin, at equal distances.
         let sin = (options.baseline_m / (2.0 * options.distance_m)).min(1.0);
         let (chord_sin, chord_cos) = libm::sincos(2.0 * libm::asin(sin));
         let center1 = Point3::new(0.0, 0.0, -options.distance_m);
@@ -243,7 +243,7 @@ mod tests {
         ] {
             assert!(TwoViewProblem::new(&bad).is_err(), "{bad:?}");
         }
-        // A tiny thing seen from the far end of the world is still one pixel, not an error.
+        // A tiny object very far away still projects to one pixel, without an error.
         assert!(
             TwoViewProblem::new(&TwoViewProblemOptions {
                 distance_m: 1e4,
