@@ -1,85 +1,86 @@
-//! The error type of the core: every failure is a sentence for the user.
+//! The error type of the library, with messages for the user.
 
 use std::ops::RangeInclusive;
 
-/// Reason why an operation has no result.
+/// Reason why an operation failed.
 ///
-/// Bad data never causes a panic or a NaN, but one of these errors.
+/// Invalid data never causes a panic or a NaN, but one of these errors.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// Fewer data than the computation needs.
     #[error("{what} needs at least {needed}, but {}", only(*.got))]
     TooFew {
-        /// The computation, with its unit of counting, such as "a fundamental matrix from matches".
+        /// Description of the computation, with its unit of counting, such as "a fundamental matrix
+        /// from matches".
         what: &'static str,
-        /// The smallest sufficient number.
+        /// Minimum sufficient number.
         needed: usize,
-        /// Number given.
+        /// Actual number.
         got: usize,
     },
-    /// Enough data, but too few that differ: repetitions count once.
+    /// Enough data, but too few distinct: repetitions count once.
     #[error("{what} needs at least {needed} that differ, but {}", distinct(*.got, *.given))]
     TooFewDistinct {
-        /// The computation, as in [`Error::TooFew`].
+        /// Description of the computation, as in [`Error::TooFew`].
         what: &'static str,
-        /// The smallest sufficient number.
+        /// Minimum sufficient number.
         needed: usize,
         /// Number of distinct data.
         got: usize,
-        /// Number given.
+        /// Actual number.
         given: usize,
     },
     /// A NaN or an infinity among the inputs.
     #[error("{what} must be a finite number")]
     NotFinite {
-        /// The input's name.
+        /// Name of the input.
         what: &'static str,
     },
     /// A parameter outside its range.
     #[error("{what} must be {requirement}, but is {}", brief(*.value))]
     OutOfRange {
-        /// The parameter's name.
+        /// Name of the parameter.
         what: &'static str,
-        /// The range in words, such as "greater than 0".
+        /// Description of the range, such as "greater than 0".
         requirement: &'static str,
-        /// The value given.
+        /// Actual value.
         value: f64,
     },
     /// The data do not determine the result.
     #[error("{what} is not determined: {why}")]
     Degenerate {
-        /// The quantity asked for.
+        /// Name of the undetermined quantity.
         what: &'static str,
-        /// Reason why these data do not determine it, such as "all points lie on one line".
+        /// Reason why the data do not determine it, such as "all points lie on one line".
         why: &'static str,
     },
-    /// Two inputs differ in size but must agree.
+    /// Two inputs that must have the same size differ.
     #[error("{what} must have the same size, but one has {first} and the other {second}")]
     SizeMismatch {
-        /// The two inputs, such as "the two lists of points".
+        /// Description of the two inputs, such as "the two lists of points".
         what: &'static str,
-        /// Size of the first.
+        /// Size of the first input.
         first: usize,
-        /// Size of the second.
+        /// Size of the second input.
         second: usize,
     },
-    /// Rays are parallel: the point they share is infinitely far.
+    /// The rays are parallel: the point is infinitely far away.
     #[error("the rays are parallel, so the point is infinitely far away")]
     PointAtInfinity,
-    /// The point is behind the camera or in its center plane, so it has no image.
+    /// The point is behind the camera or in its center plane, so it has no projection.
     #[error("the point is not in front of the camera")]
     PointBehindCamera,
-    /// No candidate model gathered enough support.
+    /// No model had enough support.
     #[error(
         "no model was supported by at least {needed} of the {got} data after {iterations} tries"
     )]
     NoConsensus {
-        /// The smallest acceptable number of inliers.
+        /// Minimum number of inliers.
         needed: usize,
-        /// Number of data.
+        /// Number of data points.
         got: usize,
-        /// Samples drawn.
+        /// Number of samples drawn.
         iterations: usize,
     },
     /// Canceled by the caller.
@@ -88,7 +89,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// Checks that a number is finite and in a range.
+    /// Checks that a number is finite and in range.
     ///
     /// * `what`, `requirement`: as in [`Error::OutOfRange`]
     ///
@@ -121,10 +122,11 @@ impl Error {
         Ok(())
     }
 
-    /// Checks rules for parameters: name, range in words, value, and whether it is in the range.
+    /// Checks rules for parameters: name, description of the range, value, and whether it is in
+    /// range.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the first that is not.
+    /// [`Error::OutOfRange`] for the first violated rule.
     pub(crate) fn check_rules(
         rules: &[(&'static str, &'static str, f64, bool)],
     ) -> Result<(), Self> {
@@ -139,7 +141,7 @@ impl Error {
     }
 }
 
-/// The count in words, for [`Error::TooFew`].
+/// Formats the count for [`Error::TooFew`].
 fn only(count: usize) -> String {
     match count {
         0 => "there are none".to_owned(),
@@ -148,7 +150,7 @@ fn only(count: usize) -> String {
     }
 }
 
-/// The counts in words, for [`Error::TooFewDistinct`].
+/// Formats the counts for [`Error::TooFewDistinct`].
 fn distinct(count: usize, given: usize) -> String {
     match count {
         1 => format!("the {given} given are equal"),
@@ -156,7 +158,7 @@ fn distinct(count: usize, given: usize) -> String {
     }
 }
 
-/// A number without hundreds of zeros.
+/// Formats a number without long runs of zeros.
 fn brief(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !size.is_finite() || (1e-6..1e15).contains(&size) {

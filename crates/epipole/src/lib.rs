@@ -1,4 +1,4 @@
-//! Multi-view geometry: from two photographs to a three-dimensional reconstruction.
+//! Multi-view geometry: from images to a three-dimensional reconstruction.
 //!
 //! Each module may use the modules listed before it:
 //!
@@ -15,9 +15,9 @@
 //! | [`homography`] | homographies: four points, least squares, decomposition |
 //! | [`absolute_pose`] | the pose of a camera from known points |
 //! | [`triangulation`] | points from their images in two or more views |
-//! | [`two_view`] | two views, whatever they show: E, F or H |
+//! | [`two_view`] | two views of any scene: E, F or H |
 //! | [`stereo`] | rectification, dense disparity, depth, point clouds |
-//! | [`calibration`] | boards in photographs, intrinsics and distortion from them, rigs, undistortion |
+//! | [`calibration`] | boards in images, intrinsics and distortion from them, rigs, undistortion |
 //! | [`sfm`] | bundle adjustment, pose graphs, structure from motion, odometry |
 //! | [`mvs`] | dense depth maps of many views, fused to one point cloud |
 //! | [`stitch`] | panoramas: rotations of photos, projection, blending |
@@ -55,13 +55,13 @@ pub mod synthetic;
 pub mod triangulation;
 pub mod two_view;
 
-/// The images that functions take and return.
+/// Image types of the functions' arguments and results.
 pub use image;
-/// The points and matrices that functions take and return.
+/// Point and matrix types of the functions' arguments and results.
 pub use nalgebra;
 
 pub use absolute_pose::estimate_absolute_pose;
-/// The list that minimal solvers return: zero or more models, on the stack.
+/// List returned by minimal solvers: zero or more models, on the stack.
 pub use arrayvec::ArrayVec;
 pub use epipolar::{
     decompose_essential, estimate_essential, estimate_fundamental, estimate_relative_pose,
@@ -70,10 +70,10 @@ pub use error::Error;
 pub use homography::estimate_homography;
 pub use two_view::{estimate_two_view, estimate_two_view_calibrated};
 
-/// The result of an operation that can fail with an [`Error`].
+/// Result of an operation that can fail with an [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// The examples of the package's README.
+/// Examples of the package's README.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

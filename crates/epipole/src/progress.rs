@@ -1,50 +1,50 @@
-//! Progress of a long computation, and its cancellation.
+//! Progress and cancellation of long computations.
 
 use crate::{Error, Result};
 use std::ops::ControlFlow;
 
-/// Stage of a long computation. Each function documents the stages that it has.
+/// Stage of a long computation. Each function documents its stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Stage {
-    /// Keypoints are found in photographs and described.
+    /// Detection and description of keypoints.
     FeatureDetection,
-    /// Descriptors are compared.
+    /// Comparison of descriptors.
     FeatureMatching,
-    /// The matches of pairs are tested by epipolar geometry.
+    /// Geometric verification of the matches of pairs.
     PairVerification,
-    /// Photographs are added to a reconstruction, or frames to a path, one after the other.
+    /// Registration of images in a reconstruction, or of frames in a path, one after the other.
     Registration,
-    /// Cameras and points are refined together.
+    /// Joint refinement of cameras and points.
     BundleAdjustment,
-    /// The poses of a graph are refined together.
+    /// Joint refinement of the poses of a graph.
     PoseGraph,
-    /// Samples are drawn, and models fitted to them are scored.
+    /// Drawing of samples, and scoring of their models.
     RobustEstimation,
-    /// Rows of a rectified pair are matched, pixel by pixel.
+    /// Dense matching of the rows of a rectified pair.
     DenseMatching,
-    /// Intrinsics, distortion and the poses of boards are refined.
+    /// Refinement of intrinsics, distortion and the poses of boards.
     Calibration,
-    /// The parameters of a least-squares problem are refined.
+    /// Refinement of the parameters of a least-squares problem.
     Refinement,
-    /// Photos are blended into one picture.
+    /// Blending of photos into one image.
     Blending,
-    /// Depths and normals of pixels are found by comparing many views.
+    /// Estimation of depths and normals from many views.
     DepthEstimation,
-    /// Depth maps are joined to one cloud.
+    /// Fusion of depth maps to a point cloud or mesh.
     Fusion,
-    /// An image is filtered.
+    /// Filtering of an image.
     Filtering,
-    /// An image is warped: every pixel of the result is read from its place in the source.
+    /// Warping of an image.
     Warping,
-    /// Points are followed from one image to the next.
+    /// Tracking of points from one image to the next.
     Tracking,
-    /// A picture of a known scene is computed.
+    /// Rendering of a known scene.
     Rendering,
 }
 
 impl Stage {
-    /// The stage in words for people, to stand before a share: "matching features", 40 %.
+    /// Returns the stage in words, for display before a percentage: "matching features", 40 %.
     ///
     /// ```
     /// use epipole::progress::Stage;
@@ -78,18 +78,18 @@ impl Stage {
 pub struct Status {
     /// Current stage.
     pub stage: Stage,
-    /// Completed share of the whole work, of all stages, in [0, 1].
+    /// Completed fraction of the whole work, over all stages, in [0, 1].
     pub share: f32,
 }
 
 /// Observer of a long computation, which can cancel it.
 ///
 /// Every function that can take longer than 0.1 s for an image of 12 megapixels or for 30 000
-/// features takes a `&mut dyn Monitor` as its last argument.
-/// `&mut ()` runs to the end in silence; a closure sees each [`Status`] and can return
-/// [`ControlFlow::Break`], upon which the function returns [`Error::Canceled`].
+/// features takes a `&mut dyn Monitor` as its last argument. `&mut ()` runs to the end without
+/// reports; a closure receives each [`Status`] and can return [`ControlFlow::Break`], so that the
+/// function returns [`Error::Canceled`].
 ///
-/// Reports come on the caller's thread. The share never falls.
+/// Reports are made on the caller's thread. The share never decreases.
 ///
 /// ```
 /// use epipole::progress::{Monitor, Part, Stage, Status, report};
@@ -115,7 +115,7 @@ pub struct Status {
 /// # Ok::<(), epipole::Error>(())
 /// ```
 pub trait Monitor {
-    /// Receives the current stage and share of the work; [`ControlFlow::Break`] cancels it.
+    /// Receives the current stage and the share of the work; [`ControlFlow::Break`] cancels it.
     fn report(&mut self, status: Status) -> ControlFlow<()>;
 }
 
@@ -132,7 +132,7 @@ impl<F: FnMut(Status) -> ControlFlow<()>> Monitor for F {
     }
 }
 
-/// Reports `stage` and `share`, the completed share of the whole work in [0, 1], to `monitor`.
+/// Reports `stage` and `share`, the completed fraction of the whole work in [0, 1], to `monitor`.
 ///
 /// # Errors
 /// [`Error::Canceled`] if the monitor cancels.
@@ -143,8 +143,8 @@ pub fn report(monitor: &mut dyn Monitor, stage: Stage, share: f32) -> Result<()>
     }
 }
 
-/// Monitor of one part of a longer computation: maps the shares 0 to 1 of the part to `from` to
-/// `to` of the whole.
+/// Monitor of one part of a longer computation: maps the share of the part, 0 to 1, to the range
+/// `from` to `to` of the whole.
 ///
 /// See [`Monitor`] for an example.
 pub struct Part<'a> {
@@ -155,7 +155,7 @@ pub struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    /// Passes reports of the part on to `monitor`, the stage unchanged.
+    /// Passes reports of the part to `monitor` with their stage.
     pub fn new(monitor: &'a mut dyn Monitor, from: f32, to: f32) -> Self {
         Self {
             monitor,
@@ -165,7 +165,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Passes reports on as of `stage`, whatever stages the part has.
+    /// Passes reports with the stage `stage`, whatever the stages of the part.
     #[must_use]
     pub fn of_stage(mut self, stage: Stage) -> Self {
         self.stage = Some(stage);
