@@ -17,7 +17,7 @@ pub(super) struct Pivot {
 }
 
 impl Pivot {
-    /// Computes the mean of the points, weighted by their inverse squared distance, so that
+    /// Computes the mean of the points, weighted by their inverse squared depth, so that
     /// extremely far points have no effect.
     ///
     /// * `points`: points in the world with their depths

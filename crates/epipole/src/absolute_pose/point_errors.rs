@@ -8,13 +8,13 @@ pub(super) type Pose = (nalgebra::Matrix3<f64>, Vector3<f64>);
 
 /// Errors of points given in the camera frame.
 pub(super) trait PointErrors {
-    /// Depth along the optical axis or along the ray of the pixel.
+    /// Returns the depth along the optical axis or along the ray of the pixel.
     fn depth(&self, x_in_cam: &Vector3<f64>, index: usize) -> f64;
 
     /// Returns the error; `None` if the camera does not see the point.
     fn residual(&self, x_in_cam: &Vector3<f64>, index: usize) -> Option<Vector2<f64>>;
 
-    /// The error and its derivative by the point in the camera frame.
+    /// Returns the error and its derivative by the point in the camera frame.
     fn linearized(
         &self,
         x_in_cam: &Vector3<f64>,
@@ -30,7 +30,7 @@ pub(super) struct PinholePoints<'a> {
 }
 
 impl PinholePoints<'_> {
-    /// The squared error; infinite behind the camera.
+    /// Returns the squared error; infinite behind the camera.
     pub(super) fn error_sq(&self, x: &Vector3<f64>, index: usize) -> f64 {
         let k = self.intrinsics;
         let center = k.principal_point();

@@ -6,7 +6,7 @@ const MAX_STEPS: usize = 8;
 /// Maximum angle between a solution and a ray, radians: far above rounding, far below relevance.
 const MAX_TURN: f64 = 1e-11;
 
-/// Newton's method on the three equations of the sides; returns false without a solution.
+/// Runs Newton's method on the three equations of the sides; returns false without a solution.
 ///
 /// * `versines`: `1 − cos θ` of the angles between the rays
 ///

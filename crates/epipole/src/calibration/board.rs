@@ -155,7 +155,7 @@ impl Board {
         self.square_m
     }
 
-    /// Number of marks.
+    /// Returns the number of marks.
     pub fn num_marks(&self) -> usize {
         self.columns * self.rows
     }

@@ -40,7 +40,7 @@ impl Footprint {
         area(&polygon)
     }
 
-    /// The area within a disk.
+    /// Returns the area within a disk.
     pub(super) fn area_in_disk(&self, center: Point2<f64>, radius: f64) -> f64 {
         let corners = self.corners.map(|p| (p - center) / radius);
         let sum: f64 = (0..4)
@@ -66,7 +66,7 @@ fn cut(polygon: &[Point2<f64>], height: impl Fn(&Point2<f64>) -> f64) -> ArrayVe
     kept
 }
 
-/// The area of a polygon.
+/// Returns the area of a polygon.
 fn area(polygon: &[Point2<f64>]) -> f64 {
     let Some(first) = polygon.first() else {
         return 0.0;

@@ -87,7 +87,7 @@ impl Division {
         Ok(seen / (1.0 + bent))
     }
 
-    /// Whether the ray through (x, y, 1) is seen.
+    /// Returns whether the ray through (x, y, 1) is seen.
     pub(crate) fn is_seen(&self, ray: &Point2<f64>) -> bool {
         self.root(ray) > 0.0
     }

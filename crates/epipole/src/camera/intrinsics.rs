@@ -185,7 +185,7 @@ impl Intrinsics {
         self.fv_px
     }
 
-    /// The principal point (cu, cv), pixels.
+    /// Returns the principal point (cu, cv), pixels.
     pub fn principal_point(&self) -> Point2<f64> {
         Point2::new(self.cu_px, self.cv_px)
     }

@@ -21,7 +21,7 @@ pub enum LensKind {
 }
 
 impl LensKind {
-    /// Number of coefficients of the model.
+    /// Returns the number of coefficients of the model.
     pub fn num_coefficients(self) -> usize {
         match self {
             Self::Brown => 5,

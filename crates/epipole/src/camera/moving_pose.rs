@@ -19,7 +19,7 @@ impl PoseState {
         }
     }
 
-    /// `R X`.
+    /// Returns `R X`.
     #[inline]
     pub(crate) fn rotated(&self, point: &Point3<f64>) -> Vector3<f64> {
         self.matrix * point.coords
@@ -73,7 +73,7 @@ pub(crate) fn move_points(from: &[Point3<f64>], step: &[[f64; 3]], into: &mut [P
     }
 }
 
-/// `Σ ‖X‖²`.
+/// Returns `Σ ‖X‖²`.
 pub(crate) fn sum_of_squares(points: &[Point3<f64>]) -> f64 {
     points.iter().map(|p| p.coords.norm_squared()).sum()
 }

@@ -97,7 +97,7 @@ impl EssentialEstimator {
         }
     }
 
-    /// The rays of a sample of matches; `None` if two of them share a pixel.
+    /// Returns the rays of a sample of matches; `None` if two of them share a pixel.
     pub(super) fn rays_of<const N: usize>(
         &self,
         sample: &[usize],
@@ -106,7 +106,7 @@ impl EssentialEstimator {
         (!self.matches.have_shared_pixel(sample)).then(|| [0, 1].map(rays))
     }
 
-    /// A pose with the matrix that measures its errors.
+    /// Returns a pose with the matrix that measures its errors.
     pub(super) fn candidate(&self, pose: RelativePose) -> (RelativePose, Matrix3<f64>) {
         self.sight.candidate(pose)
     }

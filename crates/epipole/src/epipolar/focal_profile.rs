@@ -304,7 +304,7 @@ fn chosen(mut inliers: Vec<usize>, random: &mut Random) -> (Vec<usize>, f64) {
     (inliers, all as f64 / few.max(1) as f64)
 }
 
-/// A motion of the essential matrix nearest to F.
+/// Returns a motion of the essential matrix nearest to F.
 fn pose_of_fundamental(
     fundamental: &Matrix3<f64>,
     intrinsics: Option<[Intrinsics; 2]>,

@@ -98,7 +98,8 @@ impl LaneErrors for PoseJudge {
 }
 
 dispatched! {
-    /// The support of a pose among the matches, in pixels; stops once the cost exceeds the limit.
+    /// Returns the support of a pose among the matches, in pixels; stops once the cost exceeds the
+    /// limit.
     pub(crate) fn support(
         coordinates: &Coordinates,
         pose: &PoseJudge,

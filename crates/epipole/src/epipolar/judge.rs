@@ -13,7 +13,7 @@ pub(crate) trait LaneErrors {
     fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes;
 }
 
-/// The support of a model among the matches; stops once the cost exceeds the limit.
+/// Returns the support of a model among the matches; stops once the cost exceeds the limit.
 #[inline(always)]
 pub(crate) fn support(
     model: &impl LaneErrors,
@@ -87,7 +87,7 @@ pub(crate) fn inliers(
     inliers.truncate(num_inliers);
 }
 
-/// `½ Σ w ρ(e²)` over all matches.
+/// Returns `½ Σ w ρ(e²)` over all matches.
 #[inline(always)]
 pub(crate) fn cost(model: &impl LaneErrors, coordinates: &Coordinates, loss: &RobustLoss) -> f64 {
     let mut total = [0.0; LANES];

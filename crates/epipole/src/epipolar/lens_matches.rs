@@ -37,7 +37,7 @@ impl RayPair {
         }
     }
 
-    /// `x2ᵀ E x1`, and its derivatives by the two pixels.
+    /// Returns `x2ᵀ E x1`, and its derivatives by the two pixels.
     fn algebraic(&self, essential: &Matrix3<f64>) -> (f64, [Vector2<f64>; 2]) {
         let [x1, x2] = &self.rays;
         let (line2, line1) = (essential * x1, essential.tr_mul(x2));
@@ -73,7 +73,7 @@ impl RayPair {
         Some((algebraic / slope, flatten(&by_entries) / slope))
     }
 
-    /// Whether the rays may meet in front of both cameras.
+    /// Returns whether the rays may meet in front of both cameras.
     fn in_front(&self, pose: &RelativePose) -> bool {
         let [x1, x2] = &self.rays;
         let (d1, d2) = signed_depths(&pose.rotation, &pose.direction, x1, x2);
@@ -104,7 +104,7 @@ impl LensMatches {
         }
     }
 
-    /// The pose that minimizes the errors of some matches.
+    /// Returns the pose that minimizes the errors of some matches.
     pub(super) fn minimize(
         &self,
         used: Subset<'_>,

@@ -81,7 +81,7 @@ impl Normalization {
         Point2::from((p - self.centroid) * self.scale)
     }
 
-    /// The map as a 3×3 matrix T.
+    /// Returns the map as a 3×3 matrix T.
     #[rustfmt::skip]
     pub fn matrix(&self) -> Matrix3<f64> {
         Matrix3::new(

@@ -3,8 +3,8 @@
 use crate::math::nearest_orthogonal;
 use nalgebra::{Matrix3, Vector3};
 
-/// A plane seen by two cameras allows two motions, R + t nᵀ and R' + t' n'ᵀ. Computes one from the
-/// other.
+/// Computes the other motion past a plane: two views of a plane allow two, R + t nᵀ and R' + t'
+/// n'ᵀ.
 ///
 /// * `rotation`, `direction`: one motion, its direction of unit length
 /// * `homography`: homography of the plane, from rays of camera 1 to rays of camera 2, at any scale

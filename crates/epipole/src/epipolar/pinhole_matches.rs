@@ -79,7 +79,7 @@ impl Sight for PinholeMatches {
         (pose, pose.fundamental_or_zeros(&self.k1, &self.k2))
     }
 
-    /// The line error only: whether a match is behind a camera depends on the threshold.
+    /// Returns only the line error: whether a match is behind a camera depends on the threshold.
     fn error_sq(&self, (_, fundamental): &Candidate, index: usize) -> f64 {
         let [u1, v1, u2, v2] = self.pixels.at(index);
         sampson_sq(fundamental, &Point2::new(u1, v1), &Point2::new(u2, v2))

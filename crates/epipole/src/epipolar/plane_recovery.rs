@@ -151,7 +151,7 @@ impl PlaneRecovery {
         self.off_plane.iter().map(cost).sum()
     }
 
-    /// The homography of a plane that holds most of the inliers of `f`.
+    /// Returns the homography of a plane that holds most of the inliers of `f`.
     pub(crate) fn dominant_plane(
         &mut self,
         matches: &Coordinates,
@@ -199,7 +199,7 @@ impl PlaneRecovery {
         }
     }
 
-    /// Least squares over the matches near the plane, twice.
+    /// Fits by least squares over the matches near the plane, twice.
     fn fit_plane(
         &mut self,
         matches: &Coordinates,

@@ -56,7 +56,8 @@ impl FocalProblem<'_> {
         self.centers.fundamental(&essential, *focal_px)
     }
 
-    /// The derivatives of F's entries with respect to the five parameters of the pose and log f.
+    /// Returns the derivatives of F's entries with respect to the five parameters of the pose and
+    /// log f.
     fn derivatives(&self, ((rotation, direction), focal_px): &(Pose, f64)) -> SMatrix<f64, 9, 6> {
         let mut d = SMatrix::<f64, 9, 6>::zeros();
         for (i, essential) in essential_derivatives(rotation, direction)

@@ -17,7 +17,7 @@ pub(super) trait SampsonErrors {
     /// Returns the errors and their derivatives by the entries of the matrix.
     fn linearize(&self, matrix: &Matrix3<f64>) -> EntrySums;
 
-    /// `½ Σ ρ(e²)`.
+    /// Returns `½ Σ ρ(e²)`.
     fn cost(&self, matrix: &Matrix3<f64>) -> f64;
 }
 
@@ -123,7 +123,7 @@ impl<E: SampsonErrors, const N: usize> PoseProblem<'_, E, N> {
         self.errors.matrix(&(cross_matrix(direction) * rotation))
     }
 
-    /// The derivatives of the matrix's entries.
+    /// Returns the derivatives of the matrix's entries.
     fn derivatives(&self, (rotation, direction): &Pose) -> SMatrix<f64, 9, N> {
         let mut free = SMatrix::<f64, 9, 5>::zeros();
         for (i, essential) in essential_derivatives(rotation, direction)

@@ -11,7 +11,7 @@ use nalgebra::{Matrix3, SMatrix, SVector};
 pub(super) struct Sampson(pub(super) [f64; 9]);
 
 impl LaneErrors for Sampson {
-    /// A match without any epipolar line (0/0) gives NaN.
+    /// Returns NaN for a match without any epipolar line (0/0).
     #[inline(always)]
     fn relative_errors(&self, lanes: &[Lanes; 4], per_threshold_sq: f64) -> Lanes {
         let f = &self.0;
@@ -32,7 +32,7 @@ impl LaneErrors for Sampson {
 }
 
 dispatched! {
-    /// The support of F among the matches; stops once the cost exceeds the limit.
+    /// Returns the support of F among the matches; stops once the cost exceeds the limit.
     pub(crate) fn support(
         coordinates: &Coordinates,
         fundamental: &Matrix3<f64>,
@@ -56,7 +56,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// `½ Σ w ρ(e²)` of the Sampson errors.
+    /// Returns `½ Σ w ρ(e²)` of the Sampson errors.
     pub(crate) fn cost(
         coordinates: &Coordinates,
         fundamental: &Matrix3<f64>,

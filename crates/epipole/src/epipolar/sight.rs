@@ -15,7 +15,7 @@ pub(super) trait Sight: core::fmt::Debug + Send + Sync {
     /// Returns a pose with its matrix.
     fn candidate(&self, pose: RelativePose) -> Candidate;
 
-    /// The squared error of a match.
+    /// Returns the squared error of a match.
     fn error_sq(&self, candidate: &Candidate, index: usize) -> f64;
 
     /// Returns the support among the matches in front of both cameras; stops once the cost exceeds

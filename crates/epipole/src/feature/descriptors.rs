@@ -87,7 +87,7 @@ impl Descriptors {
         }
     }
 
-    /// Number of descriptors.
+    /// Returns the number of descriptors.
     pub fn len(&self) -> usize {
         match &self.values {
             Values::Bytes(values) => values.len() / self.dimension,

@@ -299,7 +299,7 @@ impl TensorRows<'_> {
         Ok(())
     }
 
-    /// Border of products: beyond a constant border derivatives are 0.
+    /// Returns the border of products: beyond a constant border derivatives are 0.
     fn border(&self) -> Border {
         match self.options.border {
             Border::Constant(_) => Border::Constant(0.0),

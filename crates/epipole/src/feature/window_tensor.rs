@@ -120,7 +120,7 @@ impl WindowTensor {
         self.uu * self.vv - self.uv * self.uv
     }
 
-    /// The sum of the eigenvalues, `Σ Iᵤ² + Σ Iᵥ²`.
+    /// Returns the sum of the eigenvalues, `Σ Iᵤ² + Σ Iᵥ²`.
     pub fn trace(&self) -> f64 {
         self.uu + self.vv
     }

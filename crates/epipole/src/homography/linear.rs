@@ -98,7 +98,7 @@ pub fn transfer(homography: &Matrix3<f64>, pixel1: &Point2<f64>) -> Option<Point
     (pixel2.x.is_finite() && pixel2.y.is_finite()).then_some(pixel2)
 }
 
-/// The square of [`transfer_error_px`], px².
+/// Returns the square of [`transfer_error_px`], px².
 pub(crate) fn transfer_error_sq(
     homography: &Matrix3<f64>,
     pixel1: &Point2<f64>,

@@ -49,7 +49,7 @@ impl LaneErrors for Transfer {
 }
 
 dispatched! {
-    /// The support of H among the matches; stops once the cost exceeds the limit.
+    /// Returns the support of H among the matches; stops once the cost exceeds the limit.
     pub(crate) fn support(
         coordinates: &Coordinates,
         homography: &Matrix3<f64>,
@@ -73,7 +73,7 @@ dispatched! {
 }
 
 dispatched! {
-    /// `½ Σ w ρ(e²)` of the transfer errors.
+    /// Returns `½ Σ w ρ(e²)` of the transfer errors.
     pub(crate) fn cost(coordinates: &Coordinates, homography: &Matrix3<f64>, loss: &RobustLoss) -> f64 {
         judge::cost(&Transfer(entries(homography)), coordinates, loss)
     }

@@ -43,7 +43,7 @@ pub fn gray_from_values(width: u32, height: u32, values: Vec<f32>) -> Result<Gra
     Ok(from_vec(width, height, values))
 }
 
-/// Infallible variant of [`gray_from_values`] for pixels computed by this crate.
+/// Creates an image as [`gray_from_values`], infallibly, from pixels computed by this crate.
 pub(crate) fn from_vec(width: u32, height: u32, values: Vec<f32>) -> GrayImage32 {
     GrayImage32::from_raw(width, height, values).expect("one value was computed for each pixel")
 }
@@ -131,7 +131,7 @@ pub fn rgb_to_gray_f32(image: &RgbImage, weights: &[f32; 3]) -> GrayImage32 {
     from_vec(image.width(), image.height(), values.collect())
 }
 
-/// Whether every pixel is a finite number.
+/// Returns whether every pixel is a finite number.
 pub(crate) fn is_finite(image: &GrayImage32) -> bool {
     // 0·v is 0 for a finite v and NaN otherwise; eight sums let the loop vectorize.
     let (chunks, rest) = image.as_raw().as_chunks::<8>();

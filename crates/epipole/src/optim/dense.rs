@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// A least-squares problem `½ Σ ρ(rᵢ²)` over a vector of parameters.
 pub trait DenseProblem {
-    /// The number of scalar residuals.
+    /// Returns the number of scalar residuals.
     fn num_residuals(&self) -> usize;
 
     /// Writes every residual. The solver avoids parameters with residuals that are not finite.
@@ -21,12 +21,12 @@ pub trait DenseProblem {
     /// Writes the Jacobian, one row per residual.
     fn jacobian(&self, parameters: &DVector<f64>, jacobian: &mut DMatrix<f64>);
 
-    /// The loss of each residual.
+    /// Returns the loss of each residual.
     fn loss(&self) -> RobustLoss {
         RobustLoss::Trivial
     }
 
-    /// Whether the `index`-th parameter is held fixed.
+    /// Returns whether the `index`-th parameter is held fixed.
     fn is_held(&self, _index: usize) -> bool {
         false
     }

@@ -31,7 +31,7 @@ pub(crate) trait FixedProblem<const P: usize> {
         1.0
     }
 
-    /// Whether the `index`-th degree of freedom is held fixed.
+    /// Returns whether the `index`-th degree of freedom is held fixed.
     fn is_held(&self, _index: usize) -> bool {
         false
     }

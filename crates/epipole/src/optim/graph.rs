@@ -31,9 +31,9 @@ pub(crate) trait GraphProblem<const D: usize>: Sync {
     fn edges(&self) -> &[(u32, u32)];
     /// Returns Ω of an edge, symmetric and positive semi-definite.
     fn information(&self, edge: usize) -> &SMatrix<f64, D, D>;
-    /// The residual of an edge.
+    /// Returns the residual of an edge.
     fn residual(&self, parameters: &Self::Parameters, edge: usize) -> SVector<f64, D>;
-    /// The residual of an edge with its Jacobians.
+    /// Returns the residual of an edge with its Jacobians.
     fn linearize(&self, parameters: &Self::Parameters, edge: usize) -> EdgeTerms<D>;
     /// Writes `from ⊞ step`, with one step per vertex.
     fn step(&self, from: &Self::Parameters, step: &[SVector<f64, D>], into: &mut Self::Parameters);
@@ -43,7 +43,7 @@ pub(crate) trait GraphProblem<const D: usize>: Sync {
     fn loss(&self) -> RobustLoss {
         RobustLoss::Trivial
     }
-    /// Whether a vertex is held fixed.
+    /// Returns whether a vertex is held fixed.
     fn is_held(&self, vertex: usize) -> bool;
 }
 

@@ -192,7 +192,7 @@ pub(crate) fn minimize<S: System>(
     Ok(LmReport { history, ..report })
 }
 
-/// The loop of [`minimize`]; an error of `visit` ends it.
+/// Runs the loop of [`minimize`]; an error of `visit` ends it.
 pub(super) fn minimize_visiting<S: System>(
     system: &mut S,
     parameters: &mut S::Parameters,

@@ -128,12 +128,12 @@ impl MatchSet {
         Self::new(pixels1, pixels2)
     }
 
-    /// Number of different matches.
+    /// Returns the number of unique matches.
     pub fn len(&self) -> usize {
         self.u1.len()
     }
 
-    /// Whether there is no match.
+    /// Returns whether there is no match.
     pub fn is_empty(&self) -> bool {
         self.u1.is_empty()
     }

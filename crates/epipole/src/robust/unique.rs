@@ -3,7 +3,7 @@
 use crate::{Error, Result};
 use std::collections::HashMap;
 
-/// Maximum number of values of a datum: a point and its pixel.
+/// Maximum number of values of a data point: those of a point and its pixel.
 const MAX_COORDINATES: usize = 5;
 
 /// Repetitions in the data.
@@ -59,7 +59,7 @@ impl Unique {
         Self { first, place }
     }
 
-    /// Number of different data.
+    /// Returns the number of unique data points.
     pub fn len(&self) -> usize {
         self.first.len()
     }

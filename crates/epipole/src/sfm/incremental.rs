@@ -44,7 +44,7 @@ pub enum SfmStep {
 }
 
 impl SfmStep {
-    /// Cost of the refinement of this step, square pixels.
+    /// Returns the cost of the refinement of this step, square pixels.
     pub fn cost(&self) -> Option<f64> {
         match *self {
             Self::Started { .. } => None,

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Images, reduced to keypoints, and matches between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SfmInput {
-    /// The photographs.
+    /// The images.
     pub images: Vec<SfmImage>,
     /// The camera of each image, or one for all.
     pub cameras: Vec<Camera>,

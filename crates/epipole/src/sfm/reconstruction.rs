@@ -51,7 +51,7 @@ pub struct Reconstruction {
 }
 
 impl Reconstruction {
-    /// The number of images with a camera.
+    /// Returns the number of images with a camera.
     pub fn num_registered(&self) -> usize {
         self.cameras.iter().flatten().count()
     }
@@ -77,7 +77,7 @@ impl Reconstruction {
         moved
     }
 
-    /// The number of observations of all points.
+    /// Returns the number of observations of all points.
     pub fn num_observations(&self) -> usize {
         self.points.iter().map(|point| point.track.len()).sum()
     }

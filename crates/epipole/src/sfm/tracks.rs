@@ -138,7 +138,7 @@ pub fn build_tracks(
     Ok(tracks)
 }
 
-/// Whether two ascending lists have a member in common.
+/// Returns whether two ascending lists have a member in common.
 fn share_a_member(a: &[u32], b: &[u32]) -> bool {
     let (mut i, mut j) = (0, 0);
     while i < a.len() && j < b.len() {

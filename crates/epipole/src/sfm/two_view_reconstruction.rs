@@ -319,7 +319,8 @@ fn rms_px(bundle: &Bundle, points: &[usize]) -> f64 {
     (squares.sum::<f64>() / (2 * points.len()) as f64).sqrt()
 }
 
-/// Number of matches that each of the four motions of E puts in front of both cameras, most first.
+/// Returns the number of matches that each of the four motions of E puts in front of both cameras,
+/// most first.
 fn four_counts(
     motion: &RigidTransform,
     pixels1: &[Point2<f64>],

@@ -9,7 +9,7 @@ use derive_setters::Setters;
 /// Progress of a dense matcher when the filter starts.
 pub(super) const SEARCH_SHARE: f32 = 0.9;
 
-/// Tests that an answer of a dense matcher must pass.
+/// Tests of the disparities of a dense matcher.
 ///
 /// ```
 /// use epipole::stereo::{DisparityFilter, StereoSgm};

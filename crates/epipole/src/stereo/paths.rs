@@ -223,7 +223,7 @@ impl<const N: usize> Sweep<N> {
     /// Continues all paths through the next row.
     ///
     /// * `costs`: width × `num_cells`
-    /// * `gray`: this row of the left picture
+    /// * `gray`: this row of the left image
     pub(super) fn next_row(&mut self, costs: &[u8], gray: &[u8], penalties: &Penalties) {
         if self.num_cells.is_multiple_of(32) {
             self.next_row_in_blocks::<32>(costs, gray, penalties);

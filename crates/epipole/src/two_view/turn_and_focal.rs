@@ -149,7 +149,7 @@ fn narrow_pixel(camera: &Camera, pixel: &Point2<f64>) -> Option<Point2<f64>> {
 }
 
 impl Search<'_> {
-    /// The best homography of any kind.
+    /// Returns the best homography of any kind.
     fn homography(&self) -> Result<Matrix3<f64>> {
         let (pixels1, pixels2): (Vec<_>, Vec<_>) = self.pairs.iter().copied().unzip();
         let start = fit_homography(&pixels1, &pixels2)?;

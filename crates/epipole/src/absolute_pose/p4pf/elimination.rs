@@ -171,7 +171,7 @@ impl Elimination {
         [first, second]
     }
 
-    /// The determinant of the linear equation and the two identities.
+    /// Returns the determinant of the linear equation and the two identities.
     fn determinant(&self) -> Polynomial {
         let [a, b] = self.identities();
         let minor = |i: usize, j: usize| minus(&times(&a[i], &b[j]), &times(&a[j], &b[i]));

@@ -224,7 +224,7 @@ pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<SeenMark> {
     views.iter().enumerate().flat_map(of_view).collect()
 }
 
-/// A single camera: only its own parameters are free.
+/// Returns which parameters are held for a single camera: all but its own.
 fn held(kind: LensKind) -> [bool; SHARED] {
     let mut held = [true; SHARED];
     held[6..6 + 4 + kind.num_coefficients()].fill(false);

@@ -33,7 +33,7 @@ pub(super) fn missing_sq(e: &Matrix3<f64>) -> f64 {
     constraint(e).norm_squared()
 }
 
-/// `E Eᵀ E − ½ E`: zero for an essential matrix of unit Frobenius norm.
+/// Returns `E Eᵀ E − ½ E`: zero for an essential matrix of unit Frobenius norm.
 #[inline(always)]
 fn constraint(e: &Matrix3<f64>) -> Matrix3<f64> {
     let dot =
@@ -48,7 +48,7 @@ fn constraint(e: &Matrix3<f64>) -> Matrix3<f64> {
     eet * e
 }
 
-/// Gauss–Newton on the four coefficients, to remove rounding errors.
+/// Runs Gauss–Newton on the four coefficients, to remove rounding errors.
 #[cold]
 fn sought(near: &Matrix3<f64>, basis: &[[f64; 9]; 4]) -> Option<Matrix3<f64>> {
     let basis = basis.map(|vector| Matrix3::from_row_slice(&vector));

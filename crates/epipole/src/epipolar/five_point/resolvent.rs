@@ -14,8 +14,8 @@ const SMALL_LEAD: f64 = 1e-10;
 /// Factor on the two limits below which rounding may have removed two roots.
 const ROUGH: f64 = 1e3;
 
-/// Gauss–Jordan elimination of the first ten columns. Returns the last six rows, as only these are
-/// needed, and the smallest pivot. `None` if the columns are nearly dependent.
+/// Runs Gauss–Jordan elimination on the first ten columns. Returns the last six rows, as only these
+/// are needed, and the smallest pivot. `None` if the columns are nearly dependent.
 fn eliminate(rows: &mut [Cubic; 10]) -> Option<([[f64; 10]; 6], f64)> {
     let mut smallest = f64::INFINITY;
     for column in 0..10 {
@@ -67,7 +67,7 @@ struct Reduced {
     one: [f64; 5],
 }
 
-/// `a − z b`, for rows `a = x²z + …` and `b = x² + …`: the leading terms cancel.
+/// Returns `a − z b`, for rows `a = x²z + …` and `b = x² + …`: the leading terms cancel.
 fn combine(a: &[f64; 10], b: &[f64; 10]) -> Reduced {
     Reduced {
         x: [a[2], a[1] - b[2], a[0] - b[1], -b[0]],
@@ -133,7 +133,7 @@ impl Resolvent {
         lead(&self.polynomial) >= SMALL_LEAD
     }
 
-    /// The coefficients x and y that belong to a root z.
+    /// Returns the coefficients x and y that belong to a root z.
     #[inline]
     pub(super) fn others(&self, z: f64) -> (f64, f64) {
         let rows = [0, 1, 2].map(|i: usize| {
@@ -159,7 +159,7 @@ impl Resolvent {
     }
 }
 
-/// The size of the leading coefficient, relative to the largest.
+/// Returns the size of the leading coefficient, relative to the largest.
 fn lead(polynomial: &[f64; 11]) -> f64 {
     let largest = polynomial.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     polynomial[10].abs() / largest

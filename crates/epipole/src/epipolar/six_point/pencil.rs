@@ -39,7 +39,7 @@ fn add_triple(sum: &mut Cubic, a: &Quadratic, b: &[f64; 3], factor: f64) {
     }
 }
 
-/// The cubic monomials.
+/// Returns the cubic monomials.
 fn cubes(v: &Vector3<f64>) -> SVector<f64, 10> {
     let (x, y, z) = (v.x, v.y, v.z);
     SVector::from([
@@ -168,8 +168,8 @@ impl Pencil {
         sum
     }
 
-    /// The determinant as Chebyshev coefficients in s, where `w = (1 + s)/(1 − s)`: all positive w
-    /// are in (−1, 1). Three roots at infinite w are divided out.
+    /// Returns the determinant as Chebyshev coefficients in s, where `w = (1 + s)/(1 − s)`: all
+    /// positive w are in (−1, 1). Three roots at infinite w are divided out.
     pub(super) fn polynomial(&self) -> [f64; DEGREE + 1] {
         let count = (DEGREE + 1) as f64;
         let angle = |i: usize| core::f64::consts::PI * (i as f64 + 0.5) / count;
@@ -211,7 +211,8 @@ impl Pencil {
         (length > 0.0 && length.is_finite()).then(|| v / length)
     }
 
-    /// The residuals, their derivatives by log w and by (x, y, z), and the size of their terms.
+    /// Returns the residuals, their derivatives by log w and by (x, y, z), and the size of their
+    /// terms.
     pub(super) fn linearize(
         &self,
         w: f64,

@@ -11,8 +11,8 @@ const TOUCHES: f64 = 1e-9;
 /// Coefficients of degree up to [`DEGREE`], from the constant term upwards.
 type Series = [f64; DEGREE + 1];
 
-/// All roots in (−1, 1), in ascending order: between roots of the derivative a polynomial is
-/// monotone.
+/// Returns all roots in (−1, 1), in ascending order: between roots of the derivative a polynomial
+/// is monotone.
 pub(super) fn roots_within(series: &Series) -> Vec<f64> {
     if !series.iter().all(|c| c.is_finite()) {
         return Vec::new();
@@ -48,7 +48,7 @@ fn derivative(series: &Series, degree: usize) -> Series {
     d
 }
 
-/// The roots of a series whose extrema are given.
+/// Returns the roots of a series whose extrema are given.
 fn roots_between(series: &Series, extrema: &[f64]) -> Vec<f64> {
     let size = series.iter().fold(0.0_f64, |size, c| size.max(c.abs()));
     let mut roots = Vec::new();

@@ -42,8 +42,8 @@ fn walk_best(second: &Integers, piece: &Piece, state: &mut State) {
     walk(second, piece, state, portable);
 }
 
-/// Inner products of eight packed descriptors with each of four plain ones, whose pairs of numbers
-/// are packed into one `i32`, low half first. All have the same number of pairs.
+/// Computes inner products of eight packed descriptors with each of four plain ones, whose pairs of
+/// numbers are packed into one `i32`, low half first. All have the same number of pairs.
 #[cfg_attr(
     any(target_arch = "x86_64", target_arch = "wasm32"),
     allow(dead_code, reason = "only other processors take it")

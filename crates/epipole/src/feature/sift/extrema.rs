@@ -135,7 +135,7 @@ impl<'a> Differences<'a> {
         }
     }
 
-    /// The difference at a sample of layer 0, 1 or 2 of the three.
+    /// Returns the difference at a sample of layer 0, 1 or 2 of the three.
     fn at(&self, layer: usize, x: usize, y: usize) -> f32 {
         let k = y * self.width + x;
         self.gaussians[layer + 1][k] - self.gaussians[layer][k]

@@ -48,9 +48,9 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn num_points(&self) -> usize;
     /// Returns camera and point of each observation; both must be in range.
     fn observations(&self) -> &[(u32, u32)];
-    /// The residual of one observation.
+    /// Returns the residual of one observation.
     fn residual(&self, parameters: &Self::Parameters, observation: usize) -> [f64; 2];
-    /// The residual of one observation with its Jacobians.
+    /// Returns the residual of one observation with its Jacobians.
     fn linearize(
         &self,
         parameters: &Self::Parameters,
@@ -60,7 +60,7 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn step(&self, from: &Self::Parameters, step: &BundleStep<C, S>, into: &mut Self::Parameters);
     /// Returns the length of the parameters, for the relative step test.
     fn parameter_norm(&self, parameters: &Self::Parameters) -> f64;
-    /// The loss of every residual.
+    /// Returns the loss of every residual.
     fn loss(&self) -> RobustLoss;
     /// Returns which degrees of freedom of a camera are held fixed.
     fn held_camera(&self, _camera: usize) -> [bool; C] {
@@ -82,11 +82,11 @@ pub(crate) trait BundleProblem<const C: usize, const S: usize>: Sync {
     fn prior(&self, _parameters: &Self::Parameters, _camera: usize) -> Option<PriorTerms<C>> {
         None
     }
-    /// The loss of the priors on cameras.
+    /// Returns the loss of the priors on cameras.
     fn prior_loss(&self) -> RobustLoss {
         RobustLoss::Trivial
     }
-    /// Whether a point is held fixed.
+    /// Returns whether a point is held fixed.
     fn held_point(&self, _point: usize) -> bool {
         false
     }

@@ -39,7 +39,7 @@ use nalgebra::Translation3;
 /// use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 /// use epipole::sfm::{Bundle, BundleObservation, BundleOptions, PositionPrior, adjust_bundle};
 /// use nalgebra::{Point3, Vector3};
-/// // Three cameras look along z; each has a lens of its own.
+/// // Three cameras look along z; each has its own lens.
 /// let mut bundle = Bundle { lens_of_camera: vec![0, 1, 2], ..Bundle::default() };
 /// for [x, y] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
 ///     bundle.cameras.push(PosedCamera {
@@ -56,7 +56,7 @@ use nalgebra::Translation3;
 ///         bundle.observations.push(BundleObservation { camera, point, pixel: model.project(place)? });
 ///     }
 /// }
-/// // A receiver says that all three stand half a meter further along x.
+/// // GPS measures all three half a meter further along x.
 /// let known = |camera: &PosedCamera| {
 ///     let center_in_world = camera.center_in_world() + 0.5 * Vector3::x();
 ///     Some(PositionPrior { center_in_world, sigma: Vector3::repeat(0.02) })

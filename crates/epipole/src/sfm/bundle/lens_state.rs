@@ -25,7 +25,7 @@ pub(super) struct LensState {
 }
 
 impl LensState {
-    /// The state before refinement.
+    /// Returns the state before refinement.
     pub(super) fn new(lens: Lens) -> Self {
         Self {
             focal: 1.0,
@@ -34,7 +34,7 @@ impl LensState {
         }
     }
 
-    /// The camera after refinement.
+    /// Returns the camera after refinement.
     pub(super) fn refined(&self, camera: &Camera) -> Result<Camera> {
         let k = &camera.intrinsics;
         let center = k.principal_point() + self.shift_px;

@@ -18,7 +18,7 @@ pub enum PoseGraph {
 }
 
 impl PoseGraph {
-    /// `χ² = Σ eᵀ Ω e` over all edges and priors.
+    /// Returns `χ² = Σ eᵀ Ω e` over all edges and priors.
     pub fn chi2(&self) -> f64 {
         match self {
             PoseGraph::Se2(graph) => graph.chi2(),
@@ -56,7 +56,7 @@ impl PoseGraph {
         }
     }
 
-    /// Number of priors.
+    /// Returns the number of priors.
     pub fn num_priors(&self) -> usize {
         match self {
             PoseGraph::Se2(graph) => graph.priors.len(),
@@ -65,7 +65,7 @@ impl PoseGraph {
         }
     }
 
-    /// Number of landmarks among the vertices.
+    /// Returns the number of landmarks among the vertices.
     pub fn num_landmarks(&self) -> usize {
         match self {
             PoseGraph::Se2(graph) => graph.landmarks.len(),

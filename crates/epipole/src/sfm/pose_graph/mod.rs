@@ -127,7 +127,7 @@ pub struct PoseGraphReport {
 }
 
 impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
-    /// `χ² = Σ eᵀ Ω e` over all edges and priors.
+    /// Returns `χ² = Σ eᵀ Ω e` over all edges and priors.
     pub fn chi2(&self) -> f64 {
         if let Some(joined) = self.with_world() {
             return joined.chi2();

@@ -8,19 +8,19 @@ use nalgebra::{
 
 /// A pose of a graph's vertices: SE(2), SE(3) or Sim(3), with `D` degrees of freedom.
 pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
-    /// The error of an edge, from the difference `measured⁻¹ · a⁻¹ · b`.
+    /// Returns the error of an edge, from the difference `measured⁻¹ · a⁻¹ · b`.
     fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, D>;
-    /// The error with its Jacobians for steps on the right, `pose · exp(δ)`.
+    /// Returns the error with its Jacobians for steps on the right, `pose · exp(δ)`.
     fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<D>;
-    /// `self · exp(delta)`.
+    /// Returns `self · exp(delta)`.
     fn plus(&self, delta: &SVector<f64, D>) -> Self;
-    /// The squared length of the translation.
+    /// Returns the squared length of the translation.
     fn translation_sq(&self) -> f64;
-    /// Whether every number is finite.
+    /// Returns whether every number is finite.
     fn is_finite(&self) -> bool;
     /// Converts to a similarity; a pose in the plane lies in x and y.
     fn to_similarity(&self) -> Similarity3<f64>;
-    /// The part of a similarity that a pose of this kind represents.
+    /// Returns the part of a similarity that a pose of this kind represents.
     fn from_similarity(pose: &Similarity3<f64>) -> Self;
 }
 
@@ -105,7 +105,7 @@ fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
     if w < 0.0 { (-w, -v) } else { (w, v) }
 }
 
-/// Error and Jacobians for similarities; a rigid transform is one with scale 1.
+/// Computes error and Jacobians for similarities; a rigid transform is one with scale 1.
 #[allow(
     clippy::type_complexity,
     reason = "a tuple of what one edge gives, used once"
