@@ -10,9 +10,9 @@ const WHAT: &str = "the intrinsics from views of a plane";
 /// Computes K without skew from homographies of a metric plane, in two or more views that are not
 /// parallel.
 ///
-/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic `ω =
-/// K⁻ᵀ K⁻¹`, since r1 and r2 are orthogonal and equally long: `h1ᵀ ω h2 = 0` and `h1ᵀ ω h1 = h2ᵀ ω
-/// h2`.
+/// Each homography `H = K [r1 r2 t]` gives two equations in the image of the absolute conic
+/// `ω = K⁻ᵀ K⁻¹`, since r1 and r2 are orthogonal and equally long: `h1ᵀ ω h2 = 0` and
+/// `h1ᵀ ω h1 = h2ᵀ ω h2`.
 ///
 /// * `pixels_from_plane`: homographies from the plane, in any unit of length, to pixels
 ///

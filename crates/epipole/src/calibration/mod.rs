@@ -1,9 +1,9 @@
 //! Camera calibration with boards: intrinsics, lens, and the pose of a second camera.
 //!
 //! 1. [`find_board`] finds the marks of a chessboard, circle grid, ChArUco board or AprilGrid in an
-//!   image; [`detect_markers`] finds ArUco markers and AprilTags alone.
+//!    image; [`detect_markers`] finds ArUco markers and AprilTags alone.
 //! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, with the
-//!   uncertainty of each parameter.
+//!    uncertainty of each parameter.
 //! 3. [`calibrate_rig`] adds the pose of a second camera relative to the first.
 //! 4. [`photograph_of_board`] renders test images with exact ground truth.
 //! 5. [`Undistortion`] undistorts images.

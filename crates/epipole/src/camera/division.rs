@@ -3,9 +3,9 @@
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Point2};
 
-/// Division model of distortion: a point imaged at distance r from the center lies on the ray at `r
-/// / (1 + k r²)`. The parameter, negative for barrel distortion, also suits wide-angle lenses, and
-/// both directions have closed forms.
+/// Division model of distortion: a point imaged at distance r from the center lies on the ray at
+/// `r / (1 + k r²)`. The parameter, negative for barrel distortion, also suits wide-angle lenses,
+/// and both directions have closed forms.
 ///
 /// Source: Fitzgibbon 2001, "Simultaneous linear estimation of multiple view geometry and lens
 /// distortion", §2.

@@ -4,8 +4,8 @@ use crate::math::real_roots::{DEGREE, real_roots};
 use crate::{Error, Result};
 use nalgebra::{Matrix2x3, Point2, Vector2, Vector3};
 
-/// Fisheye lens: a ray at the angle θ from the optical axis is imaged at the radius `θ (1 + k1 θ² +
-/// k2 θ⁴ + k3 θ⁶ + k4 θ⁸)`, in units of the focal length.
+/// Fisheye lens: a ray at the angle θ from the optical axis is imaged at the radius
+/// `θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸)`, in units of the focal length.
 ///
 /// These are the four coefficients of OpenCV's fisheye model. Rays beside and behind the camera are
 /// seen as well.

@@ -60,8 +60,8 @@ impl Intrinsics {
         })
     }
 
-    /// Creates intrinsics with square pixels and the principal point in the middle of a `width ×
-    /// height` image: `cu = (width − 1)/2`, since pixel centers are at integers.
+    /// Creates intrinsics with square pixels and the principal point in the middle of a
+    /// `width × height` image: `cu = (width − 1)/2`, since pixel centers are at integers.
     ///
     /// # Errors
     /// As [`Intrinsics::new`].

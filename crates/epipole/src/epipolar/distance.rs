@@ -151,8 +151,8 @@ pub fn sampson_px(fundamental: &Matrix3<f64>, pixel1: &Point2<f64>, pixel2: &Poi
     Distance::new(fundamental, pixel1, pixel2, Parts::sampson_sq).px()
 }
 
-/// Computes the root mean square distance of both points from their epipolar lines: `√(½ (d(x2, F
-/// x1)² + d(x1, Fᵀ x2)²))`, pixels.
+/// Computes the root mean square distance of both points from their epipolar lines:
+/// `√(½ (d(x2, F x1)² + d(x1, Fᵀ x2)²))`, pixels.
 ///
 /// More intuitive than [`sampson_px`], but not suited for minimization. Infinite where that is; if
 /// only one pixel is an epipole, the match fits and the distance is 0.

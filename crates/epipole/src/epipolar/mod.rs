@@ -1,7 +1,7 @@
 //! Two-view geometry: fundamental and essential matrices.
 //!
-//! By convention `x2ᵀ F x1 = 0` for matching pixels `x1` of image 1 and `x2` of image 2, so `line2
-//! = F x1` is a line of image 2. F and E have unit Frobenius norm.
+//! By convention `x2ᵀ F x1 = 0` for matching pixels `x1` of image 1 and `x2` of image 2, so
+//! `line2 = F x1` is a line of image 2. F and E have unit Frobenius norm.
 
 pub(crate) mod coordinates;
 mod distance;

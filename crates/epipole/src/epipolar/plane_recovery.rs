@@ -280,8 +280,8 @@ fn through_pair(matches: &Coordinates, h: &Matrix3<f64>, pair: [usize; 2]) -> Op
     Some(cross_matrix(&epipole2) * h)
 }
 
-/// Returns the homography of the plane through three matches that agrees with F: `H = A − e2 (M⁻¹
-/// b)ᵀ`, `A = [e2]ₓ F`.
+/// Returns the homography of the plane through three matches that agrees with F:
+/// `H = A − e2 (M⁻¹ b)ᵀ`, `A = [e2]ₓ F`.
 ///
 /// Source: Hartley & Zisserman 2004, result 13.6.
 fn homography_of_triple(

@@ -56,8 +56,8 @@ pub struct FeatureOptions {
     /// Assume direction 0, for upright cameras. Harris corners have no direction. False.
     pub upright: bool,
     /// SIFT: images of up to this many pixels are also searched at twice their size; larger ones,
-    /// for which this takes seconds, only if they have fewer than `max_features` without; none if
-    /// 0. 1.5 million.
+    /// for which this takes seconds, only if they have fewer than `max_features` without; none
+    /// if 0. 1.5 million.
     pub max_upsampled_pixels: u64,
     /// SIFT: assumed blur of the input, pixels, 0 to half of `sigma_px`. 0.5, as Lowe's; 0.3 gives
     /// more matches in sharp images, fewer where features are rare.

@@ -6,8 +6,8 @@ use crate::math::monitored;
 use crate::progress::{Monitor, Stage};
 use crate::{Error, Result};
 
-/// Correlates the image with a kernel, an image of weights with odd sides: `out(u, v) = Σ kernel(i,
-/// j) I(u + i − rᵤ, v + j − rᵥ)`.
+/// Correlates the image with a kernel, an image of weights with odd sides:
+/// `out(u, v) = Σ kernel(i, j) I(u + i − rᵤ, v + j − rᵥ)`.
 ///
 /// Takes one multiplication per weight and pixel; for a kernel that is an outer product,
 /// [`separable_filter`](super::separable_filter) takes far fewer. The kernel is not flipped. The

@@ -11,8 +11,9 @@ use std::ops::Range;
 const SHORT: bool = cfg!(not(target_arch = "wasm32"));
 
 impl Kernel<'_> {
-    /// Correlates a row, `None` for a row outside the image: `out[x] = Σ weights[k] row[x + k −
-    /// r]`. `edge` is a buffer for the ends of the row with their border.
+    /// Correlates a row, `None` for a row outside the image:
+    /// `out[x] = Σ weights[k] row[x + k − r]`. `edge` is a buffer for the ends of the row with
+    /// their border.
     pub(crate) fn along(
         &self,
         row: Option<&[f32]>,

@@ -11,8 +11,8 @@ use crate::{Error, Result};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-/// Correlates an image with the kernel `kernel_v · kernel_uᵀ`: `out(u, v) = Σⱼ Σᵢ kernel_v[j]
-/// kernel_u[i] I(u + i − rᵤ, v + j − rᵥ)`.
+/// Correlates an image with the kernel `kernel_v · kernel_uᵀ`:
+/// `out(u, v) = Σⱼ Σᵢ kernel_v[j] kernel_u[i] I(u + i − rᵤ, v + j − rᵥ)`.
 ///
 /// The kernels are not flipped. Sums have a fixed order, with symmetric kernels folded, so that a
 /// mirrored image gives the mirrored result bit by bit. The only stage is [`Stage::Filtering`].

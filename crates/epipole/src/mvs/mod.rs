@@ -1,11 +1,11 @@
 //! Multi-view stereo: dense depth maps, point clouds and meshes from photos with known cameras.
 //!
 //! 1. [`prepare_views`] undistorts the photos of a [`Reconstruction`](crate::sfm::Reconstruction),
-//!   downscales them, and chooses the neighbors and the depth range of each: an [`MvsView`].
+//!    downscales them, and chooses the neighbors and the depth range of each: an [`MvsView`].
 //! 2. [`estimate_depth_maps`] estimates a depth and a normal for each pixel by PatchMatch, coarse
-//!   to fine, and keeps those that neighbors confirm: a [`DepthMap`].
+//!    to fine, and keeps those that neighbors confirm: a [`DepthMap`].
 //! 3. [`fuse_depth_maps`] fuses them to a point cloud with normals, colors and confidences,
-//!   [`mesh_depth_maps`] to a triangle mesh: a [`Mesh`].
+//!    [`mesh_depth_maps`] to a triangle mesh: a [`Mesh`].
 //!
 //! ```
 //! # fn main() -> Result<(), epipole::Error> {

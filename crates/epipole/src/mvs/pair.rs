@@ -18,8 +18,8 @@ pub(super) struct Pair {
 /// Minimum depth relative to that in the other photo; below it a point counts as behind the camera.
 const MIN_DEPTH: f64 = 1e-9;
 
-/// Transfer of a small piece of a plane: its middle, and the Jacobian between pixels, `[∂x/∂u,
-/// ∂x/∂v, ∂y/∂u, ∂y/∂v]`.
+/// Transfer of a small piece of a plane: its middle, and the Jacobian between pixels,
+/// `[∂x/∂u, ∂x/∂v, ∂y/∂u, ∂y/∂v]`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Affine {
     pub(super) center: [f32; 2],

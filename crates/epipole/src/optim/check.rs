@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Computes the Jacobian of `residuals` by a step from zero, by central differences: `J[:, j] =
-/// (r(h eⱼ) − r(−h eⱼ)) / 2h`.
+/// Computes the Jacobian of `residuals` by a step from zero, by central differences:
+/// `J[:, j] = (r(h eⱼ) − r(−h eⱼ)) / 2h`.
 ///
 /// * `residuals`: the residuals after a step δ; for parameters on a manifold,
 ///   `|δ| r(parameters ⊞ δ)`

@@ -44,8 +44,8 @@ pub fn num_trials_with_replacement(
 }
 
 /// Returns the number of samples so that at least one is free of outliers with probability
-/// `confidence`, for sampling without replacement: the smallest k with `1 − (1 − P)ᵏ ≥ p`, `P = Π
-/// (m − i)/(n − i)` for i = 0 … s − 1.
+/// `confidence`, for sampling without replacement: the smallest k with `1 − (1 − P)ᵏ ≥ p`,
+/// `P = Π (m − i)/(n − i)` for i = 0 … s − 1.
 ///
 /// * `num_inliers`: m ≤ n
 /// * `num_data`: n ≥ s

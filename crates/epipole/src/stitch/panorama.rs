@@ -15,8 +15,8 @@ const TELLS_UP: f64 = 1e-4;
 /// Photos in the frame of a panorama, which looks along z with y down.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panorama {
-    /// For each photo the matrix `M` from directions of the panorama to pixels, `p ∝ M d`, with p.z
-    /// > 0 where the photo sees the direction. `None` for photos without overlap.
+    /// For each photo the matrix `M` from directions of the panorama to pixels, `p ∝ M d`, with
+    /// p.z > 0 where the photo sees the direction. `None` for photos without overlap.
     pub pixel_from_direction: Vec<Option<Matrix3<f64>>>,
     /// Rotations of the cameras, for rotating cameras: `d_in_cam = R d`.
     pub rotations: Vec<Option<Matrix3<f64>>>,

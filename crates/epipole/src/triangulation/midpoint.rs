@@ -126,9 +126,10 @@ impl Meeting {
 /// Triangulates a point between two rays, closer to the ray on which its depth is smaller, in the
 /// frame of camera 1.
 ///
-/// On each ray the point is taken at the depth where the rays would meet, `d1 = |x2 × t|/|R x1 ×
-/// x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by their inverse depths. Nearly
-/// as good as minimizing the reprojection error, at the cost of [`triangulate_midpoint`].
+/// On each ray the point is taken at the depth where the rays would meet,
+/// `d1 = |x2 × t|/|R x1 × x2|`, `d2 = |R x1 × t|/|R x1 × x2|`; the two points are weighted by their
+/// inverse depths. Nearly as good as minimizing the reprojection error, at the cost of
+/// [`triangulate_midpoint`].
 ///
 /// * `cam2_from_cam1`, `ray1`, `ray2`: as for [`triangulate_midpoint`]
 ///

@@ -112,8 +112,8 @@ pub struct NviewPoint {
     pub rms_error_px: f64,
 }
 
-/// Triangulates a point from many views, minimizing the reprojection error `½ Σ ρ(‖pixel −
-/// projection‖²)`: [`triangulate_nview_dlt`], then Levenberg–Marquardt.
+/// Triangulates a point from many views, minimizing the reprojection error
+/// `½ Σ ρ(‖pixel − projection‖²)`: [`triangulate_nview_dlt`], then Levenberg–Marquardt.
 ///
 /// * `cameras`, `pixels`: at least two cameras, and the point's projection in each
 /// * `loss`: width in pixels

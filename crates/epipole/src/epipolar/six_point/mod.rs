@@ -25,10 +25,10 @@ pub(crate) const MAX_SOLUTIONS: usize = 15;
 /// Solves for the essential matrices, at most fifteen, each with its focal length, that six matches
 /// of two cameras with a common focal length satisfy exactly.
 ///
-/// Assumes square pixels without skew. The matches leave `F = x F1 + y F2 + z F3`, and with `P =
-/// diag(1, 1, f⁻²)` this belongs to an essential matrix if `det F = 0` and `2 F P Fᵀ P F = tr(F P
-/// Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose determinant is a
-/// polynomial of degree 15 in f⁻².
+/// Assumes square pixels without skew. The matches leave `F = x F1 + y F2 + z F3`, and with
+/// `P = diag(1, 1, f⁻²)` this belongs to an essential matrix if `det F = 0` and
+/// `2 F P Fᵀ P F = tr(F P Fᵀ P) F`: ten equations in the ten cubic monomials of x, y and z, whose
+/// determinant is a polynomial of degree 15 in f⁻².
 ///
 /// * `pixels1`, `pixels2`: matching pixels
 /// * `principal1`, `principal2`: principal points of the two images, pixels

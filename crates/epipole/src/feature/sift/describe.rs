@@ -100,8 +100,8 @@ pub fn sift_directions(
 /// Computes the histograms whose peaks are [`sift_directions`], one per position: 36 sums of
 /// gradients, smoothed. Bin k is at an angle of `k · 10° − 180°`.
 ///
-/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient all sums are
-/// 0. The only stage is [`Stage::FeatureDetection`].
+/// Arguments, errors and the border are as for [`describe_sift`]; without any gradient all sums
+/// are 0. The only stage is [`Stage::FeatureDetection`].
 ///
 /// Source: Lowe 2004, §5.
 ///

@@ -18,8 +18,8 @@ pub(super) fn directions(
     peaks(&histogram(layer, center, sigma, scratch), options)
 }
 
-/// Computes the histogram of the gradients around a position; bin k is at an angle of `k · 10° −
-/// 180°`.
+/// Computes the histogram of the gradients around a position; bin k is at an angle of
+/// `k · 10° − 180°`.
 ///
 /// The weights are a Gaussian of 1.5 times the keypoint's blur; each gradient is distributed to the
 /// two nearest bins; the histogram is smoothed by `[1 4 6 4 1]/16`.

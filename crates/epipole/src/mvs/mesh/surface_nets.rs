@@ -32,7 +32,7 @@ struct Vertex {
     point: Point3<f64>,
     normal: Vector3<f64>,
     color: [u8; 3],
-    /// Whether the surface crosses each of the three edges at the first corner, and if so,
+    /// Whether the surface crosses each of the three edges at the first corner, and if so, whether
     /// outwards.
     crossings: [Option<bool>; 3],
 }

@@ -17,8 +17,8 @@ pub(super) fn q_matrix(focal_px: f64, center: &Vector2<f64>, translation: f64, o
     )
 }
 
-/// Returns Q of a rectified pair with a common focal length and principal point: `X = (u − cu)
-/// B/d`, `Y = (v − cv) B/d`, `Z = f B/d`.
+/// Returns Q of a rectified pair with a common focal length and principal point:
+/// `X = (u − cu) B/d`, `Y = (v − cv) B/d`, `Z = f B/d`.
 ///
 /// * `focal_px`: pixels, > 0; `baseline_m`: meters, > 0
 /// * `cu_px`, `cv_px`: principal point, pixels

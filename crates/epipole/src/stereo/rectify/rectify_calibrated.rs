@@ -56,12 +56,13 @@ impl Default for RectifyOptions {
 /// # Errors
 /// [`Error::Degenerate`](crate::Error::Degenerate) if the cameras are at the same place; if the
 /// baseline is more than 60° off the image plane halfway between the cameras, in any direction; if
-/// a pixel looks along the baseline, since no common image plane then sees the whole image (with a
-/// baseline θ off that plane, images must stay within 90° − θ of their middle); or if a lens model
-/// folds less than halfway to the image's border. Content beyond a fold closer to the border is not
-/// shown, nor is content of a fisheye farther than 80° from the results' middle.
-/// [`Error::SizeMismatch`](crate::Error::SizeMismatch) for images that differ in size,
-/// [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an empty size.
+/// a pixel of an image looks along the baseline, except for a fisheye, since no common image plane
+/// then sees the whole image (with a baseline θ off that plane, images must stay within 90° − θ of
+/// their middle); or if a lens model folds less than halfway to the image's border. Content beyond
+/// a fold closer to the border is not shown, nor is content of a fisheye farther than 80° from the
+/// results' middle. [`Error::SizeMismatch`](crate::Error::SizeMismatch) for images that differ in
+/// size, [`Error::OutOfRange`](crate::Error::OutOfRange) for an alpha outside 0 to 1 or an empty
+/// size.
 ///
 /// Source: Bouguet's method as described in Bradski & Kaehler 2008, "Learning OpenCV", ch. 12;
 /// Fusiello, Trucco & Verri 2000, "A compact algorithm for rectification of stereo pairs".
