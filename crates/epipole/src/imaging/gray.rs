@@ -113,7 +113,7 @@ pub fn rgb_to_gray(image: &RgbImage) -> GrayImage {
 }
 
 /// Converts color to gray in [0, 1] by weights of red, green and blue,
-/// `(wᵣ R + w₉ G + w_b B) / 255`.
+/// `(w_r R + w_g G + w_b B) / 255`.
 ///
 /// Weights that sum to one, such as [`BT601_WEIGHTS`] and [`BT709_WEIGHTS`], keep white at 1.
 ///
