@@ -1,6 +1,6 @@
-//! Computes what takes long of the sample that the Lab opens with: `epipole-lab-sample FILE` writes
-//! it, and the Lab of a page brings it, so that it opens solved. A program of its own rather than
-//! an example, which would compile what only tests need.
+//! Precomputes the slow results of the sample that the Lab opens with, so that it opens solved:
+//! `epipole-lab-sample FILE` writes the file that the page loads. A program rather than an example,
+//! as an example would also compile the dependencies of tests.
 
 use epipole_lab::project::{Project, Sample};
 use epipole_lab::session::Event;

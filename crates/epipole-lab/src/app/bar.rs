@@ -71,7 +71,7 @@ impl<H: Host> App<H> {
             }
             if let Some(notice) = &self.notice {
                 ui.weak(notice);
-                // The way back to how the Lab opens for everyone.
+                // Resets the Lab to its initial state.
                 if self.storage.is_restored && ui.button("Start over").clicked() {
                     self.erase_stored();
                     send(Event::OpenSample(Sample::Table));
@@ -82,7 +82,7 @@ impl<H: Host> App<H> {
         ui.add_space(3.0);
     }
 
-    /// Draws the choices about the project that the browser stores.
+    /// Draws the menu for the project stored in the browser.
     fn storage_menu(&mut self, ui: &mut Ui) {
         ui.separator();
         let is_closed = self.storage.is_closed();

@@ -40,7 +40,7 @@ impl<H: Host> App<H> {
         self.notice = Some(sentence);
     }
 
-    /// Saves the file that a task has written. Returns the message to show.
+    /// Saves the file written by a task. Returns the message to show.
     fn save<T: Task<Output = Blob>>(
         &mut self,
         name: &str,
@@ -81,7 +81,7 @@ impl<H: Host> App<H> {
     /// Hands the written project to the browser.
     fn take_written(&mut self, written: Result<Blob, String>) {
         match written {
-            // It may have been erased meanwhile.
+            // The stored project may have been erased meanwhile.
             _ if !self.storage.is_open() => {}
             Ok(bytes) => self.host.keep(bytes.to_vec()),
             Err(sentence) => self.not_stored(&sentence, false),
@@ -112,7 +112,7 @@ impl<H: Host> App<H> {
     }
 }
 
-/// The output of a task.
+/// Decodes the output of a task.
 fn read<T: Task>(result: Result<Vec<u8>, String>) -> Result<T::Output, String> {
     T::read(&result?)
 }

@@ -1,4 +1,5 @@
-//! Handling of host events: photographs (of a board during that step), projects, videos, links.
+//! Handling of host events: photographs (of boards in the step "Calibrate"), projects, videos,
+//! links.
 
 use super::App;
 use crate::project::{Blob, Computed, Step};
@@ -54,7 +55,7 @@ impl<H: Host> App<H> {
             self.project.update(Event::AddBoards(files));
             return;
         }
-        // One change: one step back.
+        // A single event, so that one undo reverts it.
         self.project.update(match document.is_sample() {
             true => Event::Begin(files),
             false => Event::Add(files),
@@ -110,7 +111,7 @@ impl<H: Host> App<H> {
     }
 }
 
-/// Bytes in words.
+/// Formats a number of bytes in megabytes.
 pub(super) fn megabytes(bytes: usize) -> String {
     match bytes {
         0..100_000 => "less than 0.1 MB".to_owned(),

@@ -22,19 +22,19 @@ pub struct App<H> {
     project: Project,
     host: H,
     jobs: Jobs,
-    /// Videos that frames are taken from.
+    /// Videos whose frames are being extracted.
     videos: Videos,
-    /// Project in the storage of the browser.
+    /// Project stored in the browser.
     storage: Storage,
     /// Queue of host events.
     host_events: VecDeque<HostEvent>,
-    /// Whether the results of the sample are still to arrive.
+    /// Whether precomputed results of the sample are still to arrive.
     waits_for_sample: bool,
     /// Message about the last file.
     notice: Option<String>,
     panels: [(Step, Box<dyn Panel>); 9],
     views: Views,
-    /// Steps to choose from.
+    /// List of steps.
     steps: steps::Steps,
     /// Description last announced.
     description: String,
@@ -89,7 +89,8 @@ impl<H: Host> App<H> {
         &mut self.host
     }
 
-    /// Does the work between two frames. True while something is running.
+    /// Processes host events and jobs between two frames. True while anything is running or
+    /// waiting.
     pub fn advance(&mut self) -> bool {
         self.host_events.extend(self.host.host_events());
         // Events after a project wait until it is open.
@@ -117,7 +118,7 @@ impl<H: Host> App<H> {
         self.jobs.schedule(&self.project, &mut self.host, is_held);
     }
 
-    /// Passes description and link to the environment, if they have changed.
+    /// Passes description and link to the host if they have changed.
     fn announce(&mut self) {
         let mut description = self.project.describe();
         if let Some(notice) = &self.notice {
@@ -134,7 +135,7 @@ impl<H: Host> App<H> {
         }
     }
 
-    /// Whether work is left that [`App::advance`] should do soon.
+    /// Whether [`App::advance`] has work left and should be called again soon.
     pub fn is_waiting(&self) -> bool {
         self.jobs.is_waiting()
     }
@@ -171,7 +172,7 @@ impl<H: Host> App<H> {
         }
         CentralPanel::default().show(ui, |ui| self.picture(ui, &mut actions));
         if !actions.is_empty() || self.is_waiting() {
-            // The effects of the actions start, and show, with the next frame.
+            // Actions take effect, and are visible, in the next frame.
             ui.ctx().request_repaint();
         }
         for action in actions {
@@ -203,7 +204,7 @@ impl<H: Host> App<H> {
             .id_salt(step)
             .auto_shrink(false)
             .show(ui, |ui| {
-                // Nothing lies under the bar that scrolls.
+                // Nothing may lie below the scroll bar.
                 ui.set_max_width(ui.available_width() - 10.0);
                 ui.add_space(6.0);
                 ui.horizontal_wrapped(|ui| {
@@ -241,7 +242,7 @@ impl<H: Host> App<H> {
                     self.views = Views::default();
                     self.steps = steps::Steps::default();
                 }
-                // The sentence on the opened file no longer holds.
+                // The message about the opened file is outdated.
                 if matches!(event, Event::UsePoses(None) | Event::UseCamera(None)) {
                     self.notice = None;
                 }
@@ -320,7 +321,7 @@ impl<H: Host> App<H> {
     }
 }
 
-/// Undo and redo by keys.
+/// Handles the keys of undo and redo.
 fn keys(ui: &Ui, actions: &mut Vec<Action>) {
     let typing = ui.ctx().egui_wants_keyboard_input();
     ui.input(|input| {

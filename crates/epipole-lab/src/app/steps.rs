@@ -1,4 +1,4 @@
-//! The steps to choose from: below each other, or in one row that scrolls where there is no room.
+//! List of the steps: a column, or a scrolling row on narrow screens.
 
 use crate::panels::Action;
 use crate::panels::widgets::look;
@@ -12,16 +12,16 @@ use egui::{
 use epipole_canvas::theme::Role;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Side of the mark of a step, points.
+/// Side of a step's mark, points.
 const MARK: f32 = 10.0;
 
 /// The steps, with their states.
 #[derive(Default)]
 pub(super) struct Steps {
-    /// Step in the middle of the row.
+    /// Step that the row was last scrolled to.
     centered: Option<Step>,
     states: BTreeMap<Step, StepState>,
-    /// Revision of the project at which they were found.
+    /// Revision of the project that these values belong to.
     revision: Option<u64>,
     /// Photographs of the project at that revision.
     photos: BTreeSet<PhotoId>,
@@ -33,7 +33,7 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// Takes the state of the project, and adds the time since the last frame to running steps.
+    /// Updates from the project, and adds the time since the last frame to running steps.
     ///
     /// * `now_s`: time of the frame, seconds
     pub(super) fn update(&mut self, project: &Project, running: BTreeSet<Step>, now_s: f64) {
@@ -46,14 +46,14 @@ impl Steps {
             self.states = project.step_states();
             let photos = project.document().photos.iter().map(|photo| photo.id);
             let before = std::mem::replace(&mut self.photos, photos.collect());
-            // Other photographs begin anew.
+            // Other photographs: the times start at zero.
             if before.is_disjoint(&self.photos) {
                 self.seconds.clear();
             }
         }
     }
 
-    /// Below each other.
+    /// Draws the steps as a column.
     pub(super) fn column(&self, project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
         ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
             for step in Step::ALL {
@@ -75,7 +75,7 @@ impl Steps {
                     let galley = painter.layout_no_wrap(text.to_owned(), font, color);
                     galley.size().x
                 };
-                // The longest title leaves no room for a time.
+                // Beside the longest title there is no room for a time.
                 let taken = width(step.title(), TextStyle::Button)
                     + width(&words, TextStyle::Small)
                     + 3.0 * MARK
@@ -89,8 +89,7 @@ impl Steps {
         });
     }
 
-    /// One row, in which the step that is looked at is brought to the middle, and one that the
-    /// keyboard reaches into sight.
+    /// Draws the steps as a row, scrolled to the current step or to the one that gets the focus.
     pub(super) fn row(&mut self, project: &Project, ui: &mut Ui, actions: &mut Vec<Action>) {
         let current = project.view().step;
         ScrollArea::horizontal()
@@ -182,7 +181,7 @@ impl Steps {
         })
     }
 
-    /// Time spent on a step, if it can be noticed.
+    /// Formats the time spent on a step, if it is long enough to notice.
     fn time_words(&self, step: Step) -> Option<String> {
         let seconds = *self.seconds.get(&step)?;
         match seconds {

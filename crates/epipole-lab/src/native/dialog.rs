@@ -1,4 +1,4 @@
-//! The file dialog of the desktop, by an external program: no further toolkit becomes a dependency.
+//! File dialogs of the desktop, by an external program, to avoid another toolkit as a dependency.
 
 use std::io::ErrorKind;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ pub(super) enum FileKind {
     Photographs,
     /// One project.
     Project,
-    /// Files of cameras: one, or those of a model.
+    /// Camera files: one file, or those of a model.
     Cameras,
 }
 
@@ -43,7 +43,7 @@ impl FileKind {
         }
     }
 
-    /// `*.jpg *.JPG …`
+    /// Patterns of the files: `*.jpg *.JPG …`.
     fn patterns(self) -> String {
         let endings = self.endings().iter();
         let both =
@@ -60,7 +60,7 @@ impl FileKind {
                 Self::Photographs => " with multiple selections allowed",
                 Self::Project | Self::Cameras => "",
             };
-            // A list of one is made of one, so that both are gone through alike.
+            // `as list` makes a single file a list, so that the loop handles both.
             let script = format!(
                 "set all to \"\"\nrepeat with one in ((choose file with prompt \"{title}\"{many}) as list)\n\
                  set all to all & POSIX path of one & linefeed\nend repeat\nall"

@@ -25,6 +25,6 @@ pub(crate) fn give_back() {
         .exec();
 }
 
-/// Other systems do so by themselves.
+/// Does nothing: other allocators return memory by themselves.
 #[cfg(not(all(target_os = "linux", target_env = "gnu")))]
 pub(crate) fn give_back() {}

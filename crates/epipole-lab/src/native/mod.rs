@@ -1,5 +1,5 @@
-//! A window, and threads that compute. Files are given as arguments, chosen or dropped, and written
-//! to the folder where the program was started.
+//! The Lab in a window, with threads that compute. Files are given as arguments, chosen or dropped;
+//! files are saved in the folder where the program was started.
 
 mod dialog;
 mod memory;
@@ -65,7 +65,7 @@ fn read(paths: &[PathBuf]) -> Vec<HostEvent> {
     if !photographs.is_empty() {
         host_events.push(HostEvent::Photographs(photographs));
     }
-    // Poses are looked for by the names of photographs that came with them.
+    // Poses are matched by the names of the photographs that were opened with them.
     if !cameras.is_empty() {
         host_events.push(HostEvent::Cameras(cameras));
     }
@@ -94,7 +94,7 @@ struct Window {
     /// Channel for the results of dialogs.
     chosen_sender: Sender<Vec<HostEvent>>,
     chosen: Receiver<Vec<HostEvent>>,
-    /// Whether a dialog is open: one is enough.
+    /// Whether a dialog is open; only one is at a time.
     asks: Arc<AtomicBool>,
 }
 
@@ -164,7 +164,7 @@ impl Host for Window {
                     false => ControlFlow::Continue(()),
                 }
             };
-            // No shared state can be left inconsistent: a request goes in, an answer comes out.
+            // A panic leaves no shared state behind: a request goes in, an answer comes out.
             let computed = catch_unwind(AssertUnwindSafe(|| compute(&request, &mut monitor)));
             tell(match computed {
                 Ok(result) => Report::Done(job, result),
@@ -219,14 +219,14 @@ impl Host for Window {
     }
 
     fn ask_for_frames(&mut self, _video: u32, _part: u32, _num_parts: u32) {
-        // None ever arrives here.
+        // Never called: no video arrives here.
     }
 
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String> {
         let (stem, ending) = name.rsplit_once('.').unwrap_or((name, "zip"));
         let mut path = PathBuf::from(name);
         let mut number = 2;
-        // Nothing is written over.
+        // Existing files are not overwritten.
         while path.exists() {
             path = PathBuf::from(format!("{stem}-{number}.{ending}"));
             number += 1;
@@ -241,7 +241,7 @@ impl Host for Window {
     }
 
     fn can_keep(&self) -> bool {
-        // Files are there to be saved and opened.
+        // The reader saves and opens files instead.
         false
     }
 

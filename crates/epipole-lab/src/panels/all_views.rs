@@ -1,4 +1,4 @@
-//! Controls and numbers of the depth of all views.
+//! Controls and readouts of the depth of all views.
 
 use super::screen::Screen;
 use super::widgets::{controls, look};
@@ -8,7 +8,7 @@ use crate::tasks::{AllViews, DenseCloud};
 use egui::{Button, Slider, Ui};
 use epipole_canvas::theme::Role;
 
-/// Draws the button, or what it found.
+/// Draws the button, or the results.
 pub(super) fn controls(screen: &mut Screen<'_>, ui: &mut Ui) {
     let project = screen.project;
     let is_asked = project.document().all_views;

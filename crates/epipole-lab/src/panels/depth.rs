@@ -17,12 +17,12 @@ use std::ops::Range;
 /// Panel of the step "Depth".
 #[derive(Default)]
 pub(super) struct Depth {
-    /// Whether all views are shown, not a pair.
+    /// Whether all views are shown instead of a pair.
     all_views: bool,
     lens: photo::Lens,
-    /// The row of the ruler; the column, where matches share one.
+    /// Row of the ruler; column for a vertical pair.
     row: u32,
-    /// The pixel of the first picture that was clicked.
+    /// Clicked pixel of the first image.
     probe: Option<[u32; 2]>,
     made: Option<(Key, Theme)>,
     pictures: Vec<Strips>,
@@ -188,7 +188,7 @@ impl Panel for Depth {
     }
 }
 
-/// Rows of a rectified photograph, which is rotated: the black beyond its edges is left out.
+/// Returns rows of a rectified photograph, without the black outside of its rotated outline.
 fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
     let size = [width, rows.len()];
     let mut image = ColorImage::from_rgb(size, &rgb[3 * width * rows.start..3 * width * rows.end]);
@@ -202,8 +202,8 @@ fn unbordered(width: usize, rows: Range<usize>, rgb: &[u8]) -> ColorImage {
     image
 }
 
-/// Near is bright, far is dark, even steps of one over the depth; what has no depth is as the
-/// background.
+/// Colors the depth: near is bright, far is dark, linear in inverse depth; pixels without depth get
+/// the background.
 fn heat(pair: &Dense, rows: Range<usize>, range: Option<[f64; 2]>, theme: Theme) -> ColorImage {
     let none = look::of(theme, Role::Surface);
     let size = [pair.width as usize, rows.len()];
@@ -218,7 +218,7 @@ fn heat(pair: &Dense, rows: Range<usize>, range: Option<[f64; 2]>, theme: Theme)
     ColorImage::new(size, pixels.map(color).collect())
 }
 
-/// 0 for the far end of the range, 1 for the near one.
+/// Returns 0 for the far end of the range and 1 for the near end.
 fn nearness(depth: f64, [near, far]: [f64; 2]) -> f64 {
     let all = 1.0 / near - 1.0 / far;
     match all > 0.0 {
@@ -227,8 +227,8 @@ fn nearness(depth: f64, [near, far]: [f64; 2]) -> f64 {
     }
 }
 
-/// Rooms of the two photographs, beside each other so that rows agree, and of the depth below them;
-/// all below each other where there is no room.
+/// Lays out the two photographs side by side, so that rows agree, with the depth below them; all
+/// three in a column if the space is narrow.
 fn rooms(whole: Rect) -> [Rect; 3] {
     let gap = 2.0;
     let (above, below) = whole.split_top_bottom_at_fraction(0.45);

@@ -1,4 +1,4 @@
-//! Controls and numbers of the step "Depth".
+//! Controls and readouts of the step "Depth".
 
 use super::widgets::controls::{self, Change};
 use super::widgets::look;
@@ -6,7 +6,7 @@ use crate::project::{MAX_DISPARITY_PX, Project};
 use crate::tasks::Dense;
 use egui::{Color32, DragValue, Rect, Ui};
 
-/// Which disparities are looked for.
+/// Draws the controls of the disparity range.
 pub(super) fn disparities(
     ui: &mut Ui,
     range_px: &mut Option<[i32; 2]>,

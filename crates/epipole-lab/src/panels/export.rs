@@ -1,4 +1,4 @@
-//! Saving, and the recipe for the same result elsewhere.
+//! Saving of files, and the recipe for the same result elsewhere.
 
 use super::reconstruction::space;
 use super::screen::{Action, Panel, Screen};

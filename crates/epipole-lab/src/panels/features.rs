@@ -1,4 +1,5 @@
-//! The features of a photograph: circles of their size with a stroke in their direction.
+//! Features of a photograph: circles with the radius of their scale and a stroke in their
+//! direction.
 
 use super::screen::{Panel, Screen};
 use super::widgets::controls::{self, Change};
@@ -124,7 +125,7 @@ impl Panel for Features {
     }
 }
 
-/// The feature nearest to a pixel, within `reach` pixels.
+/// Finds the feature nearest to a pixel, within `reach` pixels.
 fn nearest(list: &[Feature], u: f64, v: f64, reach: f64) -> Option<usize> {
     let away = |f: &Feature| (f.u - u) * (f.u - u) + (f.v - v) * (f.v - v);
     let all = list.iter().enumerate().map(|(index, f)| (away(f), index));
@@ -132,7 +133,7 @@ fn nearest(list: &[Feature], u: f64, v: f64, reach: f64) -> Option<usize> {
     (best.0 <= reach * reach).then_some(best.1)
 }
 
-/// A descriptor as bars.
+/// Draws a descriptor as bars.
 fn descriptor(ui: &mut Ui, values: &[u8]) {
     let size = egui::vec2(ui.available_width().min(280.0), 64.0);
     let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());

@@ -1,4 +1,4 @@
-//! All pairs: photographs × photographs, with matches and inliers.
+//! Table of all pairs, with matches and inliers.
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look};

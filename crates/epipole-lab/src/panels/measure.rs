@@ -1,4 +1,4 @@
-//! Two points and their length set the scale; other lengths follow.
+//! Measurements: a known length between two points sets the scale of all others.
 
 use super::screen::{Panel, Screen};
 use super::widgets::pick::Click;
@@ -11,13 +11,13 @@ use epipole_canvas::theme::Role;
 /// Panel of the step "Measure".
 #[derive(Default)]
 pub(super) struct Measuring {
-    /// First end of a length whose second end is to be clicked.
+    /// First end of a length, until the second is clicked.
     first_end: Option<Anchor>,
-    /// Points of the floor, while fewer than three are clicked.
+    /// Points of the floor, until three are clicked.
     corners: Option<Vec<Anchor>>,
-    /// The place that was clicked last.
+    /// Point clicked last.
     last: Option<Anchor>,
-    /// Whether the last click was near no point.
+    /// Whether the last click hit no point.
     has_missed: bool,
 }
 
@@ -90,7 +90,7 @@ impl Panel for Measuring {
         let floor = project.document().floor.iter().flatten();
         let corners = self.corners.iter().flatten().chain(floor);
         for place in corners.filter_map(place) {
-            // A square: color is not the only sign.
+            // Squares, so that color is not the only distinction.
             let square = egui::Rect::from_center_size(place, egui::vec2(11.0, 11.0));
             painter.rect_stroke(
                 square,
@@ -107,7 +107,7 @@ impl Panel for Measuring {
     fn controls(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
         if project.component().is_none() {
-            // The words in place of the picture say so.
+            // The text in place of the image gives the reason.
             return controls::book(ui, Step::Measure);
         }
         let missed = |ui: &mut Ui| {

@@ -1,4 +1,4 @@
-//! The photographs: their data, their outcomes, and the choice of those that take part.
+//! The photographs: their metadata, their outcomes, and which of them take part.
 
 use super::screen::{Action, Panel, Screen};
 use super::widgets::{controls, look, verdict};
@@ -8,16 +8,16 @@ use crate::tasks::FocalOrigin;
 use egui::{DragValue, Frame, ScrollArea, Sense, Slider, Ui, vec2};
 use epipole_canvas::theme::Role;
 
-/// Width of a small picture where there is room for more than two, points, and the least.
+/// Width of a thumbnail if more than two fit in a row, points; then its minimum.
 const SMALL: f32 = 176.0;
 const SMALLEST: f32 = 96.0;
-/// Height of its name, points.
+/// Height of a thumbnail's name, points.
 const NAME: f32 = 24.0;
 
 /// Panel of the step "Photographs".
 #[derive(Default)]
 pub(super) struct Photographs {
-    /// Whether a typed focal length is that of one photograph only.
+    /// Whether a typed focal length applies to one photograph only.
     is_for_one: bool,
 }
 
@@ -25,9 +25,9 @@ impl Panel for Photographs {
     fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            // Space for the frame around the selected one.
+            // Space for the frame around the selected thumbnail.
             Frame::new().inner_margin(4.0).show(ui, |ui| {
-                // Two in a row at least: phones have no room for two large ones.
+                // At least two in a row: phones have no room for two wide ones.
                 let half = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
                 let width = half.floor().clamp(SMALLEST, SMALL);
                 ui.horizontal_wrapped(|ui| {
@@ -55,7 +55,7 @@ impl Panel for Photographs {
             ui.separator();
         }
         let left_out = project.left_out();
-        // The state of the selected photograph is already shown above.
+        // The state of the selected photograph is shown above.
         let is_other = |(id, _): &&(PhotoId, Outcome)| *id != project.view().photo;
         if left_out.iter().any(|photo| is_other(&photo)) {
             ui.strong(format!("Left out: {}", left_out.len()));
@@ -125,7 +125,7 @@ fn card(screen: &mut Screen<'_>, ui: &mut Ui, photo: &InputPhoto, width: f32) {
     response.on_hover_text(words);
 }
 
-/// * `is_for_one`: whether a typed focal length is that of this photograph only
+/// * `is_for_one`: whether a typed focal length applies to this photograph only
 fn one(screen: &mut Screen<'_>, ui: &mut Ui, photo: &InputPhoto, is_for_one: &mut bool) {
     let project = screen.project;
     ui.strong(&photo.name);

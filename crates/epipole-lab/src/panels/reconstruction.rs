@@ -22,7 +22,7 @@ impl Panel for Reconstruction {
         let project = screen.project;
         verdict::show(screen, ui);
         numbers(screen, ui);
-        // Without any, a message in place of the image gives the reason.
+        // Without a component, a message in place of the image gives the reason.
         if project.component().is_some() {
             for (id, _) in &project.left_out() {
                 if let Some(photo) = project.document().photo(*id) {
@@ -66,7 +66,7 @@ impl Panel for Reconstruction {
     }
 }
 
-/// Source of the cameras: found, or from a model of another program.
+/// Shows the source of the cameras: estimated, or from a model of another program.
 fn cameras(screen: &mut Screen<'_>, ui: &mut Ui) {
     let words = screen.project.poses_words();
     if words.is_empty() {
@@ -92,7 +92,7 @@ pub(super) fn space(screen: &mut Screen<'_>, ui: &mut Ui) {
     screen.views.cloud.show(project, ui, rect);
 }
 
-/// Reason for an empty view, with one line for each photograph left out.
+/// Returns the reason for an empty view, with one line for each photograph left out.
 fn why_none(project: &Project) -> String {
     let mut words = project.describe();
     for (id, _) in project.left_out() {
@@ -189,7 +189,8 @@ fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
     costs(ui, &found.costs);
 }
 
-/// The cost after each adjustment: it grows with each photograph, and falls as outliers leave.
+/// Plots the cost after each adjustment: it grows with each photograph, and falls as outliers
+/// leave.
 fn costs(ui: &mut Ui, costs: &[f64]) {
     let most = costs.iter().copied().fold(0.0, f64::max);
     if costs.len() < 2 || most <= 0.0 {
@@ -218,7 +219,7 @@ fn costs(ui: &mut Ui, costs: &[f64]) {
     ));
 }
 
-/// The point that was clicked.
+/// Shows the selected point.
 fn point(project: &Project, point: Option<usize>, ui: &mut Ui) {
     let Some(index) = point else {
         ui.weak(

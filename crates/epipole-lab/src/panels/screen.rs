@@ -14,13 +14,13 @@ pub(crate) enum Action {
     Send(Event),
     /// Add photographs from files.
     AddPhotographs,
-    /// Open files of cameras.
+    /// Open camera files.
     OpenCameras,
     /// Save the calibrated camera as a file, with its uncertainty.
     SaveCamera,
     /// Save the calibrated camera for another program.
     SaveCameraAs(CameraFormat),
-    /// Save the reconstruction as a zip file, cameras and points in this format.
+    /// Save the reconstruction as a zip file, with cameras and points in this format.
     SaveReconstruction(ExportFormat),
     /// Save an image of the point cloud as last seen.
     SaveView,
@@ -37,7 +37,8 @@ pub(crate) struct Views {
     pub(crate) lenses: [Lens; 2],
     /// The point cloud.
     pub(crate) cloud: CloudView,
-    /// Verdict on the reconstruction at a revision of the project, as it looks at every pair.
+    /// Verdict on the reconstruction with its revision, cached because it takes all pairs into
+    /// account.
     pub(crate) verdict: Option<(u64, Option<Verdict>)>,
     /// Settings while a control is dragged.
     pub(crate) draft: Option<Settings>,
@@ -60,7 +61,7 @@ impl Screen<'_> {
     }
 }
 
-/// A step of the Lab on the screen; a panel keeps its own view state.
+/// Panel of a step; it keeps its own view state.
 pub(crate) trait Panel {
     /// Draws the picture in the middle of the screen.
     fn picture(&mut self, screen: &mut Screen<'_>, ui: &mut Ui);

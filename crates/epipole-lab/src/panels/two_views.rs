@@ -1,4 +1,4 @@
-//! One pair: its matches, and the epipolar line of any place.
+//! Matches of a pair, and the epipolar line of a clicked point.
 
 use super::screen::{Panel, Screen};
 use super::widgets::{controls, look, photo};
@@ -13,9 +13,9 @@ const MAX_DRAWN: usize = 400;
 /// Panel of the step "Two views".
 #[derive(Default)]
 pub(super) struct TwoViews {
-    /// Pixel that was clicked in the first photograph.
+    /// Clicked pixel of the first photograph.
     probe: Option<[f64; 2]>,
-    /// Index of the match that was clicked.
+    /// Index of the clicked match.
     selected: Option<usize>,
 }
 
@@ -74,7 +74,7 @@ impl Panel for TwoViews {
                         egui::Stroke::new(1.2, inlier),
                     ));
                 } else {
-                    // A cross: color is not the only sign.
+                    // A cross, so that color is not the only distinction.
                     for d in [vec2(3.0, 3.0), vec2(3.0, -3.0)] {
                         shapes.push(egui::Shape::line_segment(
                             [at - d, at + d],
@@ -176,7 +176,7 @@ fn halves(whole: Rect) -> (Rect, Rect) {
     .map_each(|rect| rect.shrink(gap / 2.0))
 }
 
-/// Both of two.
+/// Pairs whose values are both known.
 trait Both {
     fn map_each(self, f: impl Fn(Rect) -> Rect) -> Self;
 }
@@ -187,7 +187,7 @@ impl Both for (Rect, Rect) {
     }
 }
 
-/// End points of a pixel's epipolar line in the other photograph.
+/// Returns the end points of a pixel's epipolar line in the other photograph.
 fn epipolar_line(f: &[f64; 9], [u, v]: [f64; 2], size: [u32; 2]) -> Option<([f64; 2], [f64; 2])> {
     let line = [0, 3, 6].map(|row| f[row] * u + f[row + 1] * v + f[row + 2]);
     let [a, b, c] = line;
@@ -218,7 +218,7 @@ fn mapped(h: &[f64; 9], [u, v]: [f64; 2]) -> Option<[f64; 2]> {
     place.iter().all(|x| x.is_finite()).then_some(place)
 }
 
-/// A number with its sign and power of ten, for aligned rows.
+/// Formats a number with sign and power of ten, for aligned rows.
 fn scientific(value: f64) -> String {
     format!("{value:.3e}").replace('-', "−")
 }
@@ -226,8 +226,7 @@ fn scientific(value: f64) -> String {
 /// Side of a patch, points.
 const SIDE: f32 = 136.0;
 
-/// Draws both features in the windows of their descriptors, each in the orientation of its
-/// photograph.
+/// Draws the descriptor windows of both features, each in the orientation of its photograph.
 fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&InputPhoto; 2], features: [u32; 2]) {
     let project = screen.project;
     ui.horizontal(|ui| {
@@ -245,7 +244,7 @@ fn patches(screen: &mut Screen<'_>, ui: &mut Ui, photos: [&InputPhoto; 2], featu
             let (rect, response) = ui.allocate_exact_size(vec2(SIDE, SIDE), egui::Sense::hover());
             let words = format!("Patch of the match in {}", photo.name);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &words));
-            // Four by four cells of three times the scale.
+            // 4 × 4 cells, each three times the scale wide.
             let half = (6.0 * feature.scale_px).max(4.0);
             let size = full.size();
             let middle = (vec2(feature.u as f32, feature.v as f32) + vec2(0.5, 0.5)) / size;
@@ -271,7 +270,7 @@ mod tests {
 
     #[test]
     fn a_line_is_cut_at_the_edges_of_the_photograph() {
-        // v2 = v1: a step to the side.
+        // v2 = v1: a sideways translation.
         let f = [0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0];
         let (from, to) = epipolar_line(&f, [10.0, 7.0], [100, 50]).expect("it is in the picture");
         assert_eq!((from, to), ([-0.5, 7.0], [99.5, 7.0]));

@@ -11,32 +11,32 @@ pub enum BoardPattern {
     Circles,
 }
 
-/// A board, but for its size.
+/// Layout of a board, without its size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BoardOptions {
-    /// Pattern.
+    /// Pattern of the marks.
     pub pattern: BoardPattern,
-    /// Marks in a row.
+    /// Number of marks in a row.
     pub columns: u32,
-    /// Rows of marks.
+    /// Number of rows.
     pub rows: u32,
 }
 
-/// The model of a lens.
+/// Distortion model of a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LensModel {
-    /// Five numbers (Brown and Conrady), for usual lenses.
+    /// Five parameters (Brown-Conrady), for usual lenses.
     Brown,
-    /// Eight numbers, for wide angles.
+    /// Eight parameters, for wide-angle lenses.
     Rational,
-    /// Four numbers (Kannala and Brandt), for views of 120° and more.
+    /// Four parameters (Kannala-Brandt), for fields of view of 120° and more.
     Fisheye,
-    /// One number (Fitzgibbon), of cameras from files only.
+    /// One parameter (Fitzgibbon), only in cameras from files.
     Division,
 }
 
 impl LensModel {
-    /// Its name in files and commands.
+    /// Returns its name in files and commands.
     pub fn name(self) -> &'static str {
         match self {
             Self::Brown => "brown",
@@ -46,7 +46,7 @@ impl LensModel {
         }
     }
 
-    /// The names of its numbers, in their order.
+    /// Returns the names of its parameters, in order.
     pub fn coefficients(self) -> &'static [&'static str] {
         match self {
             Self::Brown => &["k1", "k2", "p1", "p2", "k3"],
@@ -62,14 +62,14 @@ impl LensModel {
 pub struct CalibrationOptions {
     /// The board.
     pub board: BoardOptions,
-    /// The side of a square, or the distance of two rows of disks, meters.
+    /// Side of a square, or distance of two rows of disks, meters.
     pub square_m: f64,
-    /// The model of the lens.
+    /// Distortion model.
     pub lens: LensModel,
 }
 
 impl Default for CalibrationOptions {
-    /// The board of the sample.
+    /// Returns the board of the sample.
     fn default() -> Self {
         Self {
             board: BoardOptions {
@@ -83,21 +83,21 @@ impl Default for CalibrationOptions {
     }
 }
 
-/// A camera with a known lens.
+/// Calibrated camera.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LensCamera {
     /// Width and height of its photographs, pixels.
     pub size: (u32, u32),
     /// Focal lengths and principal point, pixels.
     pub k: [f64; 4],
-    /// The model of its lens.
+    /// Distortion model.
     pub lens: LensModel,
-    /// The numbers of the lens.
+    /// Distortion parameters.
     pub coefficients: Vec<f64>,
 }
 
 impl LensCamera {
-    /// Whether all of its numbers are.
+    /// Whether all of its numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.k
             .iter()

@@ -6,7 +6,7 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::Arc;
 
-/// Many bytes, shared rather than copied, which serialize as one piece.
+/// Large byte array, shared rather than copied, that serializes in one piece.
 #[derive(Clone, PartialEq, Eq, Default)]
 pub struct Blob(pub Arc<[u8]>);
 
@@ -54,12 +54,12 @@ impl<'de> Deserialize<'de> for Blob {
     }
 }
 
-/// A message as bytes.
+/// Serializes a message.
 pub(crate) fn to_bytes<T: Serialize>(message: &T) -> Vec<u8> {
-    // A buffer that grows by doubling would take three times its size for a while, and a page never
-    // returns memory.
+    // Allocated at its final size: growth by doubling would temporarily need three times as much,
+    // and a page never returns memory.
     let size = postcard::serialize_with_flavor(message, postcard::ser_flavors::Size::default());
     let bytes = Vec::with_capacity(size.unwrap_or_default());
-    // Writing to memory cannot fail, and none of the messages has a length unknown beforehand.
+    // Writing to memory cannot fail, and all lengths are known beforehand.
     postcard::to_extend(message, bytes).unwrap_or_default()
 }

@@ -11,16 +11,16 @@ const MAX_BYTES: usize = 600_000_000;
 struct Entry {
     output: Box<dyn Any>,
     num_bytes: usize,
-    /// Number of outputs that came before.
+    /// Number of outputs inserted before.
     age: u64,
 }
 
-/// Outputs, and what failed.
+/// Outputs and error messages of tasks.
 #[derive(Debug, Default)]
 pub(crate) struct Cache {
     outputs: BTreeMap<Key, Entry>,
     failures: BTreeMap<Key, String>,
-    /// Failures of the worker itself, which may succeed another time.
+    /// Tasks whose worker failed; they may succeed when retried.
     crashed: BTreeSet<Key>,
     /// Intermediate output of a running task.
     partial: Option<(Key, Box<dyn Any>)>,
@@ -29,12 +29,12 @@ pub(crate) struct Cache {
 }
 
 impl Cache {
-    /// The output of a key, if it is there and of this type.
+    /// Returns the output of a key, if it exists with this type.
     pub(crate) fn get<T: Any>(&self, key: Key) -> Option<&T> {
         self.outputs.get(&key)?.output.downcast_ref()
     }
 
-    /// Keeps an output of this size.
+    /// Inserts an output of this size.
     pub(crate) fn insert(&mut self, key: Key, output: Box<dyn Any>, num_bytes: usize) {
         self.failures.remove(&key);
         self.age += 1;
@@ -49,12 +49,12 @@ impl Cache {
         self.num_bytes += num_bytes;
     }
 
-    /// Keeps the error message of a failed task.
+    /// Stores the error message of a failed task.
     pub(crate) fn fail(&mut self, key: Key, sentence: String) {
         self.failures.insert(key, sentence);
     }
 
-    /// The same for a failure of the worker itself.
+    /// Stores the message of a worker that failed.
     pub(crate) fn crash(&mut self, key: Key, sentence: String) {
         self.fail(key, sentence);
         self.crashed.insert(key);
@@ -83,7 +83,7 @@ impl Cache {
         output.downcast_ref().filter(|_| *of == key)
     }
 
-    /// Keeps an intermediate output in place of the last one.
+    /// Replaces the intermediate output.
     pub(crate) fn set_partial(&mut self, key: Key, output: Box<dyn Any>) {
         self.partial = Some((key, output));
     }
@@ -93,7 +93,7 @@ impl Cache {
         self.partial.take_if(|(of, _)| *of == key);
     }
 
-    /// All outputs of one type, oldest first.
+    /// Returns all outputs of one type, oldest first.
     pub(crate) fn of_type<T: Any>(&self) -> Vec<(Key, &T)> {
         let outputs = self.outputs.iter();
         let of_type = |(key, entry): (&Key, &Entry)| (entry.age, *key);
@@ -103,9 +103,9 @@ impl Cache {
         ages.into_iter().filter_map(output).collect()
     }
 
-    /// Makes an output smaller.
+    /// Shrinks an output.
     ///
-    /// * `shrink`: changes the output; returns the number of bytes that this frees
+    /// * `shrink`: changes the output; returns the number of bytes freed
     pub(crate) fn shrink<T: Any>(&mut self, key: Key, shrink: impl FnOnce(&mut T) -> usize) {
         if let Some(entry) = self.outputs.get_mut(&key)
             && let Some(output) = entry.output.downcast_mut()

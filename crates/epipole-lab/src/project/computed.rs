@@ -1,4 +1,4 @@
-//! Results in a file: of a project, or of the sample.
+//! Precomputed results in the file of a project or of the sample.
 
 use super::bytes::{Blob, to_bytes};
 use serde::{Deserialize, Serialize};
@@ -6,17 +6,17 @@ use serde::{Deserialize, Serialize};
 /// Hash of the code that computes results; results of other code are rejected.
 pub const COMPUTED_BY: &str = env!("EPIPOLE_LAB_COMPUTED_BY");
 
-/// Results by key, and the code that computed them.
+/// Results by key, with the version of the code that computed them.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Computed {
     /// [`COMPUTED_BY`] of the build that computed them.
     pub by: String,
-    /// Keys, and bytes of outputs.
+    /// Keys and serialized outputs.
     pub results: Vec<(u64, Blob)>,
 }
 
 impl Computed {
-    /// The same as bytes.
+    /// Serializes the results.
     pub fn to_bytes(&self) -> Vec<u8> {
         to_bytes(self)
     }

@@ -1,4 +1,4 @@
-//! Contents of a project, restored by undo: photographs, settings, measurements.
+//! Contents of a project, subject to undo: photographs, settings, measurements.
 
 use super::board_options::LensCamera;
 use super::bytes::Blob;
@@ -8,7 +8,7 @@ use super::sample::Sample;
 use super::settings::Settings;
 use serde::{Deserialize, Serialize};
 
-/// A photograph's permanent number in its project.
+/// Permanent number of a photograph in its project.
 pub type PhotoId = u32;
 
 /// Source of a photograph.
@@ -16,52 +16,53 @@ pub type PhotoId = u32;
 pub enum Source {
     /// The bytes of an image file.
     File(Blob),
-    /// A photograph of a sample, rendered.
+    /// A rendered photograph of a sample.
     Rendered(Sample, u8),
 }
 
-/// A photograph as it was given.
+/// A photograph as given by the reader.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputPhoto {
     /// Its number.
     pub id: PhotoId,
-    /// Its name, which no other one has.
+    /// Its unique name.
     pub name: String,
     /// File or sample.
     pub source: Source,
     /// Hash of its bytes: files with equal hashes are the same photograph.
     pub content: Key,
-    /// Left out by the reader.
+    /// Whether the reader left it out.
     pub excluded: bool,
-    /// A focal length that the reader typed, pixels of the full photograph.
+    /// Focal length typed by the reader, pixels of the full photograph.
     pub focal_px: Option<f64>,
 }
 
 impl InputPhoto {
-    /// Whether it is of a sample.
+    /// Whether it belongs to a sample.
     pub fn is_rendered(&self) -> bool {
         matches!(self.source, Source::Rendered(..))
     }
 }
 
-/// Place that a measure holds on to: a keypoint that is part of a point, a pixel with dense depth,
-/// or a point of the cloud of all views.
+/// End of a measure: a keypoint that belongs to a point, a pixel with dense depth, or a point of
+/// the cloud of all views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Anchor {
-    /// The photograph, or the first of a pair, or the first registered one.
+    /// Its photograph; for a pixel the first of the pair, for a point of the cloud the first
+    /// registered one.
     pub photo: PhotoId,
     /// Its keypoint; 0 for a pixel and a point of the cloud.
     pub keypoint: u32,
-    /// The pixel, if it is none of the sparse points.
+    /// The pixel, for an anchor with dense depth.
     #[serde(default)]
     pub pixel: Option<DensePixel>,
-    /// The point of the cloud of all views, if it is one.
+    /// The point of the cloud of all views, for an anchor in it.
     #[serde(default)]
     pub cloud: Option<CloudPoint>,
 }
 
 impl Anchor {
-    /// Photographs that it depends on.
+    /// Returns the photographs that it depends on.
     pub fn photos(&self) -> impl Iterator<Item = PhotoId> {
         [Some(self.photo), self.pixel.map(|pixel| pixel.second)]
             .into_iter()
@@ -69,7 +70,7 @@ impl Anchor {
     }
 }
 
-/// Pixel of the first rectified picture of a pair.
+/// Pixel of the first rectified image of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DensePixel {
     /// The second photograph.
@@ -81,7 +82,7 @@ pub struct DensePixel {
 /// Point of the cloud of all views.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CloudPoint {
-    /// Key of the cloud: a point of another cloud is gone.
+    /// Key of its cloud; in another cloud the index would be meaningless.
     pub cloud: u64,
     /// Its index.
     pub index: u32,
@@ -92,11 +93,11 @@ pub struct CloudPoint {
 pub struct Measure {
     /// The points.
     pub ends: [Anchor; 2],
-    /// The length that sets the scale, meters.
+    /// Known length that sets the scale, meters.
     pub length_m: Option<f64>,
 }
 
-/// The state that undo restores.
+/// State that undo restores.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Document {
     /// The photographs, in order.
@@ -113,45 +114,45 @@ pub struct Document {
     pub all_views: bool,
     /// Photographs of a board, in order.
     pub boards: Vec<InputPhoto>,
-    /// The calibrated camera of those photographs that have its size.
+    /// Calibrated camera, used for photographs of its size.
     pub camera: Option<LensCamera>,
-    /// Cameras and poses from a model of another program.
+    /// Cameras and poses of a model of another program.
     pub poses: Option<KnownPoses>,
 }
 
 impl Document {
-    /// The photograph of this number.
+    /// Returns the photograph with this number.
     pub fn photo(&self, id: PhotoId) -> Option<&InputPhoto> {
         self.photos.iter().find(|photo| photo.id == id)
     }
 
-    /// Whether the photographs that an anchor depends on are there.
+    /// Whether all photographs that an anchor depends on exist.
     pub fn has_all_of(&self, anchor: &Anchor) -> bool {
         anchor.photos().all(|id| self.photo(id).is_some())
     }
 
-    /// The photograph of a board of this number.
+    /// Returns the photograph of a board with this number.
     pub fn board(&self, id: PhotoId) -> Option<&InputPhoto> {
         self.boards.iter().find(|photo| photo.id == id)
     }
 
-    /// Name of a photograph, which may be of a board; empty if there is none.
+    /// Returns the name of a photograph, also of a board; empty if there is none.
     pub fn name_of(&self, id: PhotoId) -> &str {
         let photo = self.photo(id).or(self.board(id));
         photo.map_or("", |photo| &photo.name)
     }
 
-    /// Whether all photographs are of a sample.
+    /// Whether all photographs belong to a sample.
     pub fn is_sample(&self) -> bool {
         self.photos.iter().all(InputPhoto::is_rendered)
     }
 
-    /// Whether all photographs of boards are of a sample.
+    /// Whether all photographs of boards belong to a sample.
     pub fn has_sample_boards(&self) -> bool {
         self.boards.iter().all(InputPhoto::is_rendered)
     }
 
-    /// Both photographs of a pair.
+    /// Returns both photographs of a pair.
     pub fn pair(&self, (a, b): (PhotoId, PhotoId)) -> Option<(&InputPhoto, &InputPhoto)> {
         let place = |id| self.photos.iter().position(|photo| photo.id == id);
         let (one, two) = (place(a)?, place(b)?);
@@ -163,7 +164,7 @@ impl Document {
         self.dense.contains(&(a, b)) || self.dense.contains(&(b, a))
     }
 
-    /// The same photograph earlier in the list, if there is one.
+    /// Returns an earlier copy of a photograph in the list, if any.
     pub fn twin(&self, photo: &InputPhoto) -> Option<&InputPhoto> {
         let before = self.photos.iter().take_while(|other| other.id != photo.id);
         let mut before = before.filter(|other| !other.excluded);
@@ -171,7 +172,7 @@ impl Document {
     }
 }
 
-/// All pairs of photographs, the first before the second in the list.
+/// Returns all pairs of photographs, in the order of the list.
 pub fn pairs<'a>(
     photos: &'a [&'a InputPhoto],
 ) -> impl Iterator<Item = (&'a InputPhoto, &'a InputPhoto)> {
@@ -185,7 +186,7 @@ pub fn pairs<'a>(
 pub(crate) fn content_of(source: &Source) -> Key {
     match source {
         Source::File(bytes) => Key::of_bytes(bytes),
-        // A duplicate photograph is the purpose of this sample.
+        // The duplicate photograph is the purpose of this sample.
         Source::Rendered(sample @ Sample::Twice, _) => Key::of(&(sample, 0_u8)),
         Source::Rendered(sample, index) => Key::of(&(sample, index)),
     }

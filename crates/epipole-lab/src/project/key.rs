@@ -1,23 +1,23 @@
-//! Names of results: a hash of everything that they depend on.
+//! Keys of results: a hash of everything that a result depends on.
 
 use super::bytes::to_bytes;
 use serde::Serialize;
 use std::hash::{DefaultHasher, Hasher};
 
-/// The name of a result. Equal inputs have equal names, on every machine and in each run of the
-/// same program.
+/// Key of a result. Equal inputs have equal keys, on every machine and in each run of the same
+/// program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Key(pub u64);
 
 impl Key {
-    /// The name of what depends on this.
+    /// Hashes the inputs of a result.
     pub(crate) fn of<T: Serialize>(inputs: &T) -> Self {
         let mut hasher = DefaultHasher::new();
         hasher.write(&to_bytes(inputs));
         Self(hasher.finish())
     }
 
-    /// The name of a file's bytes.
+    /// Hashes the bytes of a file.
     pub(crate) fn of_bytes(bytes: &[u8]) -> Self {
         let mut hasher = DefaultHasher::new();
         hasher.write(bytes);

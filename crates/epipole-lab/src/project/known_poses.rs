@@ -6,18 +6,19 @@ use serde::{Deserialize, Serialize};
 /// A pose, camera from world.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// Rotation, as a quaternion i, j, k, w, of any length.
+    /// Rotation, as a quaternion i, j, k, w of any norm.
     pub rotation: [f64; 4],
     /// Translation.
     pub translation: [f64; 3],
 }
 
 impl Pose {
-    /// Pose of the same camera after its photograph is rotated clockwise by quarter turns.
+    /// Returns the pose of the same camera after its photograph is rotated clockwise by quarter
+    /// turns.
     pub fn turned(&self, quarters: u8) -> Self {
         let ([mut i, mut j, mut k, mut w], [mut x, mut y, z]) = (self.rotation, self.translation);
         for _ in 0..quarters % 4 {
-            // (k + 1) / √2 times the rotation, at another length; u becomes v.
+            // The rotation times (k + 1) / √2, unnormalized; u becomes v.
             (i, j, k, w) = (i - j, i + j, k + w, w - k);
             (x, y) = (-y, x);
         }
@@ -52,7 +53,7 @@ impl KnownImage {
     }
 }
 
-/// Name of a photograph without its ending, in small letters.
+/// Returns the name of a photograph without its extension, in lower case.
 pub fn file_stem(name: &str) -> String {
     let name = name.rsplit_once('.').map_or(name, |(name, _)| name);
     name.to_lowercase()
@@ -68,15 +69,15 @@ pub struct KnownPoses {
 }
 
 impl KnownPoses {
-    /// Image of a photograph; `None` also if several images have its name. Endings do not count: an
-    /// exported photograph may have another one.
+    /// Returns the image of a photograph; `None` also if several images have its name. Extensions
+    /// are ignored, as an exported photograph may have another one.
     pub fn image_of(&self, name: &str) -> Option<&KnownImage> {
         let own = file_stem(name);
         let mut images = (self.images.iter()).filter(|image| file_stem(&image.name) == own);
         images.next().filter(|_| images.next().is_none())
     }
 
-    /// The same without images whose numbers are not finite.
+    /// Removes images whose numbers are not finite.
     pub fn checked(mut self) -> Self {
         self.images.retain(KnownImage::is_finite);
         self

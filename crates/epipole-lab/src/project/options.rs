@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Which descriptor features get.
+/// Kind of descriptor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FeatureKind {
     /// SIFT with the Hellinger kernel.
@@ -18,12 +18,12 @@ pub struct FeatureOptions {
     pub kind: FeatureKind,
     /// Maximum number of features per photograph, the strongest.
     pub max_features: u32,
-    /// Smallest contrast of a feature, gray values being in [0, 1].
+    /// Minimum contrast of a feature, for gray values in [0, 1].
     pub contrast: f32,
 }
 
 impl Default for FeatureOptions {
-    /// As `epipole sfm`.
+    /// Returns the defaults of `epipole sfm`.
     fn default() -> Self {
         Self {
             kind: FeatureKind::RootSift,
@@ -36,7 +36,7 @@ impl Default for FeatureOptions {
 /// Matching settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MatchOptions {
-    /// The nearest descriptor must be closer than this share of the second nearest.
+    /// Maximum ratio of the distances to the nearest and the second nearest descriptor.
     pub ratio: f32,
     /// Require mutual nearest neighbors.
     pub mutual: bool,
@@ -54,14 +54,14 @@ impl Default for MatchOptions {
 /// Two-view settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairOptions {
-    /// The largest error of an inlier, pixels.
+    /// Maximum error of an inlier, pixels.
     pub max_error_px: f64,
-    /// Equal seeds give equal results.
+    /// Seed; equal seeds give equal results.
     pub seed: u64,
 }
 
 impl Default for PairOptions {
-    /// As `epipole two-view`.
+    /// Returns the defaults of `epipole two-view`.
     fn default() -> Self {
         Self {
             max_error_px: 2.0,
@@ -73,16 +73,16 @@ impl Default for PairOptions {
 /// Reconstruction settings.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SfmOptions {
-    /// Fewest points that a photograph must see, and fewest matches that join two.
+    /// Minimum number of points that a photograph sees, and of matches that join two photographs.
     pub min_num_inliers: u32,
-    /// Refine one factor for all focal lengths.
+    /// Whether to refine one factor for all focal lengths.
     pub refine_focal: bool,
-    /// Refine two terms of radial distortion that all photographs share.
+    /// Whether to refine two terms of radial distortion shared by all photographs.
     pub refine_distortion: bool,
-    /// Correct focal lengths and radial distortion in the end if that lowers the error.
+    /// Whether to correct focal lengths and radial distortion at the end if that lowers the error.
     #[serde(default)]
     pub correct_lens: bool,
-    /// Equal seeds give equal results.
+    /// Seed; equal seeds give equal results.
     pub seed: u64,
 }
 
@@ -112,15 +112,15 @@ pub enum DepthMethod {
 pub struct DepthOptions {
     /// Stereo matcher.
     pub method: DepthMethod,
-    /// Give pixels without an answer that of the background beside them.
+    /// Whether to fill pixels without a disparity from the background beside them.
     pub fill: bool,
-    /// The smallest and the largest disparity to search, in pixels of the coarser photograph;
-    /// `None` for the range that the sparse points propose.
+    /// Smallest and largest disparity to search, in pixels of the coarser photograph; `None` for
+    /// the range given by the sparse points.
     pub range_px: Option<[i32; 2]>,
 }
 
 impl Default for DepthOptions {
-    /// As `epipole stereo`, but for the range.
+    /// Returns the defaults of `epipole stereo`, except for the range.
     fn default() -> Self {
         Self {
             method: DepthMethod::SemiGlobal,
@@ -138,7 +138,7 @@ pub struct AllViewsOptions {
 }
 
 impl Default for AllViewsOptions {
-    /// A minute or two for the photographs of a small scene in a browser.
+    /// Returns settings that take a minute or two for a small scene in a browser.
     fn default() -> Self {
         Self {
             max_megapixels: 0.3,

@@ -1,31 +1,31 @@
-//! Rendered photographs: one set that works, and some that cannot, each with its reason; and one of
-//! a board.
+//! Samples of rendered photographs: sets that work, sets that fail for different reasons, and a
+//! board.
 
 use serde::{Deserialize, Serialize};
 
-/// A set of rendered photographs.
+/// Set of rendered photographs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Sample {
     /// Nine photographs around a table.
     Table,
     /// A camera that only rotates.
     Turned,
-    /// One photograph alone.
+    /// A single photograph.
     Alone,
-    /// One photograph twice.
+    /// The same photograph twice.
     Twice,
-    /// A poster from four places.
+    /// A poster from four positions.
     Plane,
-    /// Three photographs of one place, and three of another.
+    /// Three photographs of one scene, and three of another.
     Mixed,
     /// Five photographs by one camera, two of them in portrait format.
     Upright,
-    /// A chessboard, to calibrate a camera with.
+    /// A chessboard for calibration.
     Board,
 }
 
 impl Sample {
-    /// All that can be reconstructed, or not.
+    /// All samples except for the board.
     pub const ALL: [Self; 7] = [
         Self::Table,
         Self::Upright,
@@ -36,7 +36,7 @@ impl Sample {
         Self::Alone,
     ];
 
-    /// Title in a few words.
+    /// Returns its title.
     pub fn title(self) -> &'static str {
         match self {
             Self::Table => "A table, nine photographs",
@@ -50,7 +50,7 @@ impl Sample {
         }
     }
 
-    /// Number of photographs.
+    /// Returns the number of photographs.
     pub fn len(self) -> u8 {
         match self {
             Self::Table => 9,
@@ -64,12 +64,12 @@ impl Sample {
         }
     }
 
-    /// False: every sample has a photograph.
+    /// Returns false: every sample has a photograph.
     pub fn is_empty(self) -> bool {
         self.len() == 0
     }
 
-    /// The name of a photograph.
+    /// Returns the name of a photograph.
     pub fn name(self, index: u8) -> String {
         let place = match self {
             Self::Table => "table",

@@ -7,13 +7,13 @@ use super::sample::Sample;
 use super::settings::Settings;
 use serde::{Deserialize, Serialize};
 
-/// The version that is written.
+/// Version of the format that is written.
 pub const VERSION: u32 = 1;
 
 /// A project without its photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Saved {
-    /// The version of this form.
+    /// Version of the format.
     pub version: u32,
     /// All settings.
     pub settings: Settings,
@@ -30,13 +30,13 @@ pub struct Saved {
     /// Whether the depth of all views is part of the cloud.
     #[serde(default)]
     pub all_views: bool,
-    /// Photographs of a board, in order. Their files are in a folder of their own.
+    /// Photographs of a board, in order. Their files are in a separate folder.
     #[serde(default)]
     pub boards: Vec<SavedPhoto>,
-    /// The calibrated camera that is used.
+    /// Calibrated camera.
     #[serde(default)]
     pub camera: Option<LensCamera>,
-    /// Cameras and poses from a model of another program.
+    /// Cameras and poses of a model of another program.
     #[serde(default)]
     pub poses: Option<KnownPoses>,
 }
@@ -44,12 +44,12 @@ pub struct Saved {
 /// A photograph of a saved project.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SavedPhoto {
-    /// Its name, and that of its file.
+    /// Its name, also of its file.
     pub name: String,
     /// Photograph of a sample, which has no file.
     pub rendered: Option<(Sample, u8)>,
-    /// Left out by the reader.
+    /// Whether the reader left it out.
     pub excluded: bool,
-    /// The focal length that the reader typed, pixels.
+    /// Focal length typed by the reader, pixels.
     pub focal_px: Option<f64>,
 }

@@ -69,23 +69,23 @@ impl Default for Settings {
 
 /// Maximum disparity, pixels.
 pub const MAX_DISPARITY_PX: i32 = 8192;
-/// The least and the greatest size of photographs for the depth of all views, megapixels.
+/// Minimum and maximum size of photographs for the depth of all views, megapixels.
 pub const ALL_VIEWS_MEGAPIXELS: [f64; 2] = [0.05, 3.0];
 /// Maximum number of frames from a video.
 pub const MAX_FRAMES: u32 = 60;
 /// Maximum number of columns and rows of a board.
 pub const MAX_MARKS: u32 = 100;
-/// The least and the greatest side of a square, meters.
+/// Minimum and maximum side of a square, meters.
 pub const SQUARES_M: [f64; 2] = [1e-4, 100.0];
 
-/// The value within the range, and the lowest for one that is not a number.
+/// Clamps a value to a range; NaN becomes its lower end.
 fn within(value: f64, low: f64, high: f64) -> f64 {
-    // The other way round, NaN would pass.
+    // With the comparison reversed, NaN would pass.
     if value >= low { value.min(high) } else { low }
 }
 
 impl Settings {
-    /// The same with every number in its range.
+    /// Returns the settings with every number clamped to its range.
     pub fn checked(mut self) -> Self {
         self.max_megapixels = within(self.max_megapixels, 0.1, 12.0);
         self.features.max_features = self.features.max_features.clamp(100, 20_000);

@@ -8,53 +8,52 @@ use super::step::Step;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The current view; undo leaves it alone.
+/// Current view, which undo does not change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
-    /// The step.
+    /// Current step.
     pub step: Step,
-    /// The photograph.
+    /// Selected photograph.
     pub photo: PhotoId,
-    /// The pair, the first before the second in the list.
+    /// Selected pair, in the order of the list.
     pub pair: (PhotoId, PhotoId),
-    /// The part of the reconstruction.
+    /// Selected component of the reconstruction.
     pub component: usize,
-    /// The photograph of a board.
+    /// Selected photograph of a board.
     pub board: PhotoId,
 }
 
 /// Outcome for a photograph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is not known yet.
+    /// Not known yet.
     Pending,
     /// Registered, with the number of its points.
     Registered(usize),
-    /// The reader left it out.
+    /// Left out by the reader.
     Excluded,
-    /// Duplicate of an earlier photograph in the list, by its name.
+    /// Duplicate of an earlier photograph, with the name of that one.
     Duplicate(String),
-    /// It cannot be read.
+    /// Unreadable, with an error message.
     Unreadable(String),
-    /// No other photograph takes part.
+    /// The only photograph that takes part.
     Alone,
-    /// Too few features; their number.
+    /// Too few features, with their number.
     FewFeatures(usize),
-    /// No overlap with any other; the largest number of agreeing matches.
+    /// No overlap with any other, with the largest number of agreeing matches.
     OverlapsNone(usize),
-    /// Only rotation between it and the photographs that it overlaps with; if this holds only for
-    /// another focal length than the given one, that focal length, in pixels of the original
-    /// photograph.
+    /// Only rotation relative to all overlapping photographs. If this holds only for another focal
+    /// length than the given one, that focal length in pixels of the original photograph.
     OnlyTurned(Option<u32>),
-    /// Too few visible points; their number.
+    /// Too few visible points, with their number.
     SeesFew(usize),
-    /// Number of visible points, which do not agree on a pose.
+    /// Visible points that do not agree on a pose, with their number.
     NoPlace(usize),
-    /// The opened model has no pose of it.
+    /// No pose in the opened model.
     NoKnownPose,
-    /// It belongs to another part.
+    /// Registered in another component.
     OtherPart(usize),
-    /// Everything failed.
+    /// The reconstruction failed, with an error message.
     Failed(String),
 }
 
@@ -64,7 +63,7 @@ pub struct Project {
     pub(crate) document: Document,
     pub(crate) view: View,
     pub(crate) cache: Cache,
-    /// Outputs from a file that were not needed yet.
+    /// Outputs from a file that have not been needed yet.
     pub(crate) imported: BTreeMap<Key, Blob>,
     pub(crate) past: Vec<Document>,
     pub(crate) future: Vec<Document>,
@@ -72,7 +71,7 @@ pub struct Project {
     pub(crate) paused: bool,
     /// Photographs whose pixels were dropped and are being read again.
     pub(crate) rereading: BTreeSet<Key>,
-    /// Those of them whose second read failed.
+    /// Those whose second read failed.
     pub(crate) unread: BTreeSet<Key>,
     /// Number of changes.
     pub(crate) revision: u64,
@@ -106,7 +105,7 @@ impl Default for Project {
 }
 
 impl Project {
-    /// Contents of the project.
+    /// Returns the contents of the project.
     pub fn document(&self) -> &Document {
         &self.document
     }
@@ -116,22 +115,22 @@ impl Project {
         &self.view
     }
 
-    /// Number of changes; values computed at one revision are valid until the next.
+    /// Returns the number of changes; values computed at a revision are valid until the next.
     pub fn revision(&self) -> u64 {
         self.revision
     }
 
-    /// Whether computing was stopped.
+    /// Whether computing is paused.
     pub fn is_paused(&self) -> bool {
         self.paused
     }
 
-    /// Whether there is something to undo.
+    /// Whether there is a change to undo.
     pub fn can_undo(&self) -> bool {
         !self.past.is_empty()
     }
 
-    /// Whether there is anything to redo.
+    /// Whether there is a change to redo.
     pub fn can_redo(&self) -> bool {
         !self.future.is_empty()
     }

@@ -1,11 +1,11 @@
-//! The steps of the Lab, and what explains each in the book.
+//! Steps of the Lab, with links to their explanations in the book.
 
-/// The steps, in order.
+/// Step of the Lab, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Step {
     /// The photographs.
     Photographs,
-    /// Their camera, from photographs of a board.
+    /// Calibration from photographs of a board.
     Calibrate,
     /// Their features.
     Features,
@@ -24,7 +24,7 @@ pub enum Step {
 }
 
 impl Step {
-    /// All of them.
+    /// All steps, in order.
     pub const ALL: [Self; 9] = [
         Self::Photographs,
         Self::Calibrate,
@@ -37,7 +37,7 @@ impl Step {
         Self::Export,
     ];
 
-    /// Its name for people.
+    /// Returns its title.
     pub fn title(self) -> &'static str {
         match self {
             Self::Photographs => "Photographs",
@@ -52,12 +52,12 @@ impl Step {
         }
     }
 
-    /// Name in an address.
+    /// Returns its name in an address.
     pub fn name(self) -> String {
         self.title().to_lowercase().replace(' ', "-")
     }
 
-    /// The figure that explains the step.
+    /// Returns the figure that explains the step.
     pub fn explanation(self) -> Explanation {
         let (figure, page, title) = match self {
             Self::Photographs => (
@@ -106,14 +106,14 @@ impl Step {
     }
 }
 
-/// The figure that explains a step, and where the book has it.
+/// Figure of the book that explains a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Explanation {
-    /// The figure's name.
+    /// Name of the figure.
     pub figure: &'static str,
-    /// The chapter's page, from the folder of the book.
+    /// Page of the chapter, relative to the book's folder.
     pub page: &'static str,
-    /// The chapter's title.
+    /// Title of the chapter.
     pub title: &'static str,
 }
 

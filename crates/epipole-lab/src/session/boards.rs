@@ -15,7 +15,7 @@ impl Project {
         for index in 0..sample.len() {
             self.give_board(&sample.name(index), Source::Rendered(sample, index));
         }
-        // Its board is that of the beginning.
+        // The board of the sample is the default one.
         self.document.settings.calibration = Settings::default().calibration;
     }
 
@@ -25,7 +25,7 @@ impl Project {
         self.document.boards.push(given);
     }
 
-    /// Uses a calibrated camera, which replaces focal lengths that were typed.
+    /// Uses a calibrated camera, which replaces typed focal lengths.
     pub(super) fn use_camera(&mut self, camera: Option<LensCamera>) {
         let camera = camera.filter(LensCamera::is_finite);
         if let Some(camera) = &camera {
@@ -39,7 +39,7 @@ impl Project {
         self.document.camera = camera;
     }
 
-    /// Uses known poses, whose cameras replace focal lengths that were typed.
+    /// Uses known poses, whose cameras replace typed focal lengths.
     pub(super) fn use_poses(&mut self, poses: Option<KnownPoses>) {
         let poses = poses.map(KnownPoses::checked);
         if let Some(poses) = &poses {

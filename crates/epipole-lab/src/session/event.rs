@@ -4,34 +4,34 @@ use crate::project::{
     Anchor, Blob, KnownPoses, LensCamera, Measure, PhotoId, Sample, Saved, Settings, Step,
 };
 
-/// Something that the reader did.
+/// Action of the reader.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Event {
-    /// Gave photographs: names and files.
+    /// Added photographs: names and files.
     Add(Vec<(String, Blob)>),
-    /// Gave photographs in place of all that there are.
+    /// Replaced all photographs by others.
     Begin(Vec<(String, Blob)>),
-    /// Gave photographs of a board, likewise.
+    /// Added photographs of a board: names and files.
     AddBoards(Vec<(String, Blob)>),
-    /// Opened the sample of a board in place of all boards.
+    /// Opened the sample of a board, replacing all boards.
     OpenBoards,
     /// Removed all photographs of boards.
     ClearBoards,
-    /// Made a calibrated camera that of the photographs of its size, or gave it up.
+    /// Used a calibrated camera for photographs of its size, or removed it.
     UseCamera(Option<LensCamera>),
-    /// Took cameras and poses from a model of another program, or gave them up.
+    /// Used cameras and poses of a model of another program, or removed them.
     UsePoses(Option<KnownPoses>),
-    /// Opened a sample in place of all photographs.
+    /// Opened a sample, replacing all photographs.
     OpenSample(Sample),
-    /// Opened a project in place of everything, with the names and bytes of its files.
+    /// Opened a project, replacing everything, with the names and bytes of its files.
     OpenProject(Box<Saved>, Vec<(String, Blob)>),
-    /// Removed a photograph, which may be of a board.
+    /// Removed a photograph, possibly of a board.
     Remove(PhotoId),
-    /// Removed all photographs, but for those of boards.
+    /// Removed all photographs, except for those of boards.
     Clear,
-    /// Left a photograph out, or took it in again; it may be of a board.
+    /// Excluded a photograph, or included it again; possibly of a board.
     Exclude(PhotoId, bool),
-    /// Typed a focal length for photographs, pixels of the full ones, or took it back.
+    /// Typed a focal length for photographs, in pixels of the full ones, or removed it.
     Focal(Vec<PhotoId>, Option<f64>),
     /// Moved a photograph towards the beginning of the list.
     Earlier(PhotoId),
@@ -39,7 +39,7 @@ pub enum Event {
     Set(Settings),
     /// Measured a length.
     Measure(Measure),
-    /// Typed the length of a measure, meters: it sets the scale.
+    /// Typed the length of a measure, meters, which sets the scale.
     Length(usize, Option<f64>),
     /// Removed a measure.
     Forget(usize),
@@ -49,20 +49,20 @@ pub enum Event {
     Dense(PhotoId, PhotoId, bool),
     /// Added the depth of all views to the cloud, or removed it.
     AllViews(bool),
-    /// Took back the last change.
+    /// Reverted the last change.
     Undo,
-    /// Restored it.
+    /// Restored the change reverted last.
     Redo,
-    /// Looks at a step.
+    /// Selected a step.
     Show(Step),
-    /// Looks at a photograph, which may be of a board.
+    /// Selected a photograph, possibly of a board.
     Look(PhotoId),
-    /// Looks at a pair.
+    /// Selected a pair.
     LookAtPair(PhotoId, PhotoId),
-    /// Looks at a part of the reconstruction.
+    /// Selected a component of the reconstruction.
     LookAtComponent(usize),
     /// Retried failed computations.
     TryAgain,
-    /// Stopped computing, or went on.
+    /// Paused computing, or resumed it.
     Pause(bool),
 }

@@ -1,4 +1,4 @@
-//! Interface to the environment of the Lab: a window or a page.
+//! Interface to the host of the Lab: a window or a page.
 
 use crate::project::{Blob, Explanation};
 use crate::tasks::Branch;
@@ -29,14 +29,14 @@ impl Report {
     }
 }
 
-/// Input from the reader or the environment.
+/// Input from the reader or the host.
 #[derive(Debug, Clone)]
 pub enum HostEvent {
     /// Names and files.
     Photographs(Vec<(String, Blob)>),
     /// A project.
     Project(Blob),
-    /// Names and files of cameras: one, or those of a model.
+    /// Names and files of cameras: a single file, or those of a model.
     Cameras(Vec<(String, Blob)>),
     /// The parameters of an address: a step, a sample, settings.
     Link(Vec<(String, String)>),
@@ -48,14 +48,14 @@ pub enum HostEvent {
     NoFrames(u32, String),
     /// Message without data, such as an error or progress.
     Notice(String),
-    /// State of the project stored in this environment.
+    /// State of the stored project.
     Stored(Stored),
     /// Precomputed results of the sample, as bytes of [`Computed`](crate::project::Computed); empty
     /// if they could not be loaded.
     Results(Blob),
 }
 
-/// State of the project stored in the environment.
+/// State of the project stored by the host.
 #[derive(Debug, Clone)]
 pub enum Stored {
     /// The project stored by the last session, or requested by [`Host::ask_for_kept`].
@@ -75,11 +75,11 @@ pub enum Stored {
     Erased,
 }
 
-/// Environment of the Lab.
+/// Host of the Lab.
 pub trait Host {
     /// Number of jobs that can run at once.
     fn capacity(&self) -> usize;
-    /// Starts a job, which needs the code of one branch.
+    /// Starts a job on a worker with the code of this branch.
     fn start(&mut self, job: JobId, branch: Branch, request: Vec<u8>);
     /// Cancels a job that is no longer needed. It may finish nevertheless.
     fn cancel(&mut self, job: JobId);
@@ -87,14 +87,14 @@ pub trait Host {
     fn reports(&mut self) -> Vec<Report>;
     /// Events since the last call.
     fn host_events(&mut self) -> Vec<HostEvent>;
-    /// Whether [`HostEvent::Results`] will come: until then no result of the sample needs to be
-    /// computed.
+    /// Whether [`HostEvent::Results`] will come: no result of the sample needs to be computed
+    /// before.
     fn brings_sample(&self) -> bool;
-    /// Opens a dialog for photographs. False if there is none and files can only be dropped.
+    /// Opens a dialog for photographs. False if there is none, so that files can only be dropped.
     fn ask_for_photographs(&mut self) -> bool;
     /// Opens a dialog for a project. False if there is none.
     fn ask_for_project(&mut self) -> bool;
-    /// Opens a dialog for files of cameras. False if there is none.
+    /// Opens a dialog for camera files. False if there is none.
     fn ask_for_camera_files(&mut self) -> bool;
     /// Opens the camera of the device. False if there is none.
     fn ask_for_camera(&mut self) -> bool;
@@ -104,13 +104,13 @@ pub trait Host {
     fn ask_for_frames(&mut self, video: u32, part: u32, num_parts: u32);
     /// Saves a file for the reader; returns the message to show.
     fn save(&mut self, name: &str, bytes: Vec<u8>) -> Result<String, String>;
-    /// Whether a project can be kept here without giving the reader a file.
+    /// Whether the host can store a project itself.
     fn can_keep(&self) -> bool;
-    /// Keeps a project in place of the previous one. The outcome arrives as [`HostEvent::Stored`].
+    /// Stores a project in place of the previous one. The outcome arrives as [`HostEvent::Stored`].
     fn keep(&mut self, project: Vec<u8>);
-    /// Erases the kept project.
+    /// Erases the stored project.
     fn forget(&mut self);
-    /// Requests the kept project, which arrives as [`HostEvent::Stored`].
+    /// Requests the stored project, which arrives as [`HostEvent::Stored`].
     fn ask_for_kept(&mut self);
     /// Announces a text to assistive technology.
     fn say(&mut self, words: &str);

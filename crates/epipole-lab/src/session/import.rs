@@ -1,5 +1,5 @@
-//! Outputs in files of projects and of the sample. Files are untrusted: each output is taken when
-//! it is needed, and only if it is valid.
+//! Outputs in files of projects and of the sample. Files are untrusted: an output is read when it
+//! is needed, and used only if it is valid.
 
 use crate::project::{COMPUTED_BY, Computed, Key, Project};
 use crate::tasks::Destination;
@@ -17,7 +17,7 @@ impl Project {
         self.take_imported();
     }
 
-    /// Takes the outputs that are needed now, repeatedly, as they enable further ones.
+    /// Takes the outputs needed now, repeatedly, as each can make further ones possible.
     pub(super) fn take_imported(&mut self) {
         let mut is_new = true;
         while is_new && !self.imported.is_empty() {
@@ -34,12 +34,12 @@ impl Project {
         }
     }
 
-    /// Outputs worth saving, but not pixels, which come from the files.
+    /// Returns outputs worth saving, without pixels, which come from the files.
     pub(super) fn computed(&self) -> Computed {
         self.computed_for(Destination::Project)
     }
 
-    /// The same for a sample, in a compact form.
+    /// Returns the outputs of a sample, in a compact form.
     pub fn light_computed(&self) -> Computed {
         self.computed_for(Destination::Sample)
     }

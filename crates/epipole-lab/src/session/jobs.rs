@@ -1,4 +1,4 @@
-//! Running jobs: as many as the environment allows, and only those still needed.
+//! Running jobs: as many as the host allows, and only those still needed.
 
 use super::host::{Host, JobId, Report};
 use super::queue::Pending;
@@ -6,7 +6,7 @@ use crate::project::{Project, Step};
 use crate::tasks::{CameraFormat, Request};
 use std::collections::{BTreeSet, VecDeque};
 
-/// Work on a file, beside the results of the project.
+/// Job on a file, not a result of the project.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FileJob {
     /// Write a zip file of the reconstruction.
@@ -15,7 +15,7 @@ pub(crate) enum FileJob {
     SaveProject,
     /// Write an image of the point cloud.
     SaveView,
-    /// Write the project for the storage of the browser.
+    /// Write the project for storage in the browser.
     Store,
     /// Write the calibrated camera for another program.
     SaveCamera(CameraFormat),
@@ -58,7 +58,8 @@ struct Job {
     stage: String,
 }
 
-/// Bytes decoded and encoded between two frames, plus those of one photograph: a few milliseconds.
+/// Maximum number of bytes decoded and encoded between two frames, which takes a few milliseconds;
+/// one photograph may exceed it.
 const MAX_BYTES: usize = 4_000_000;
 
 /// All jobs that are running.
@@ -70,13 +71,13 @@ pub(crate) struct Jobs {
     last_id: JobId,
     /// Bytes decoded and encoded since the last frame.
     num_bytes: usize,
-    /// The revision of the project whose missing results were checked last.
+    /// Revision of the project that was last checked for missing results.
     checked: Option<u64>,
 }
 
 impl Jobs {
     /// Takes reports up to the first that ends a file job, and returns its result. Reports beyond
-    /// the amount of one frame wait for the next.
+    /// the limit of bytes per frame wait for the next.
     pub(crate) fn receive(
         &mut self,
         project: &mut Project,
@@ -130,10 +131,10 @@ impl Jobs {
         Some(self.running.remove(place).subject)
     }
 
-    /// Cancels jobs that are no longer needed, and starts new ones. Those beyond the amount of one
-    /// frame wait for the next.
+    /// Cancels jobs that are no longer needed, and starts new ones, within the limit of bytes per
+    /// frame.
     ///
-    /// * `is_held`: whether no result of the project is to be computed now
+    /// * `is_held`: whether to start no computation for the project now
     pub(crate) fn schedule(&mut self, project: &Project, host: &mut impl Host, is_held: bool) {
         let mut num_bytes = std::mem::take(&mut self.num_bytes);
         if self.checked == Some(project.revision()) {
@@ -224,7 +225,7 @@ impl Jobs {
         self.running.iter().filter_map(step).collect()
     }
 
-    /// Description and progress of the oldest running job.
+    /// Returns description and progress of the oldest running job.
     ///
     /// * `video`: progress of the video that is being read
     pub(crate) fn progress(

@@ -1,4 +1,5 @@
-//! Step, sample and settings as parameters of an address, `step=matches&ratio=0.8`: both ways.
+//! Conversion of step, sample and settings to and from parameters of an address:
+//! `step=matches&ratio=0.8`.
 
 use super::event::Event;
 use crate::project::{
@@ -6,16 +7,15 @@ use crate::project::{
     Source, Step,
 };
 
-/// A setting in an address: its name, how it is written, how it is set. False for a value that is
-/// none.
+/// A setting in an address: its name, a function that writes it, and one that sets it and returns
+/// false for an invalid value.
 struct Parameter {
     name: &'static str,
     write: fn(&Settings) -> String,
     read: fn(&mut Settings, &str) -> bool,
 }
 
-/// A number is set as it is written; out of its range it comes to the nearest end, as a slider
-/// does.
+/// Numbers are clamped to their range, as by a slider.
 macro_rules! number {
     ($name:literal, $($field:tt).+) => {
         Parameter {
@@ -40,7 +40,7 @@ macro_rules! toggle {
     };
 }
 
-/// A value with names.
+/// Declares a setting with named values.
 macro_rules! choice {
     ($name:literal, $($field:tt).+, $names:expr) => {
         Parameter {
@@ -145,13 +145,13 @@ const SAMPLES: [(&str, Sample); 7] = [
     ("upright", Sample::Upright),
 ];
 
-/// Two whole numbers, as in "12-90".
+/// Parses two integers, as in "12-90".
 fn range(written: &str) -> Option<[i32; 2]> {
     let (low, high) = written.split_once('-')?;
     Some([low.parse().ok()?, high.parse().ok()?])
 }
 
-/// Sets a number from its words, unless they are no finite number of its kind.
+/// Parses a number and sets it. False if it is invalid or not finite.
 fn put<T: std::str::FromStr + PartialEq + Copy>(place: &mut T, written: &str) -> bool {
     let finite = written.parse::<f64>().is_ok_and(f64::is_finite);
     match written.parse() {
@@ -164,8 +164,8 @@ fn put<T: std::str::FromStr + PartialEq + Copy>(place: &mut T, written: &str) ->
 }
 
 impl Project {
-    /// Opens the step, the sample and the settings of an address. Returns a sentence for each
-    /// parameter that is not known or has no such value.
+    /// Applies the step, the sample and the settings of an address. Returns a message for each
+    /// parameter that is unknown or has an invalid value.
     pub fn open_link(&mut self, parameters: &[(String, String)]) -> Vec<String> {
         let mut problems = Vec::new();
         let mut settings = self.document.settings.clone();
@@ -208,8 +208,8 @@ impl Project {
         problems
     }
 
-    /// The parameters that bring back the step, the sample and every setting that is not as at the
-    /// beginning. One's own photographs are on no address.
+    /// Returns the parameters that restore the step, the sample and every setting that differs from
+    /// its default. Photographs of the reader cannot be part of an address.
     pub fn link(&self) -> String {
         let mut parameters = vec![format!("step={}", self.view.step.name())];
         let first = self.document.photos.first();
@@ -253,7 +253,7 @@ mod tests {
             (0.7, false)
         );
         assert_eq!(settings.sfm.seed, 3);
-        // One change: one step back.
+        // A single event, so that one undo reverts it.
         project.update(Event::Undo);
         assert_eq!(project.document.settings, Settings::default());
     }

@@ -1,8 +1,7 @@
-//! The session: changes of the project, outputs that are missing, running jobs, and the environment
-//! that they need.
+//! The session: changes of the project, missing outputs, running jobs, and the host.
 //!
 //! A project changes only by [`Project::update`] and [`Project::done`]. [`Project::pending`] lists
-//! the outputs to compute, and [`Pending::request`] gives a worker the task of each.
+//! the outputs to compute, and [`Pending::request`] returns the task of each for a worker.
 //!
 //! [`Project::update`]: crate::project::Project::update
 //! [`Project::done`]: crate::project::Project::done

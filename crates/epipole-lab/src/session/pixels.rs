@@ -1,5 +1,5 @@
-//! Which photographs have their pixels in memory: all of them may exceed the memory of a page. The
-//! others keep a thumbnail, and are read again from their files for display or computation.
+//! Selection of the photographs whose pixels are in memory, as all may exceed the memory of a page.
+//! The others keep a thumbnail, and are read again from their files for display or computation.
 
 use crate::project::{InputPhoto, Key, PhotoId, Project};
 use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query, ReducedOf};
@@ -8,7 +8,7 @@ use crate::tasks::{DepthOf, FeaturesOf, Photograph, PhotographOf, Query, Reduced
 const MAX_BYTES: usize = 64_000_000;
 
 impl Project {
-    /// The photographs shown in full, or whose depth is about to be computed.
+    /// Returns the photographs shown in full, or whose depth is about to be computed.
     fn looked_at(&self) -> Vec<PhotoId> {
         let photos = self.document.photos.iter().map(|photo| photo.id);
         let mut ids: Vec<PhotoId> = photos.filter(|id| self.shows_pixels(*id)).collect();
@@ -22,7 +22,8 @@ impl Project {
         ids
     }
 
-    /// The keys of photographs without features, or to be reduced, in the order of the list.
+    /// Returns the keys of photographs whose features or downscaled pixels are to be computed, in
+    /// the order of the list.
     fn awaited(&self) -> Vec<Key> {
         let to_describe = self.to_describe();
         let to_reduce = ReducedOf::all(self);
@@ -65,8 +66,8 @@ impl Project {
         }
         let (looked_at, awaited) = (self.looked_at(), self.awaited());
         let looked_at: Vec<Key> = looked_at.into_iter().filter_map(key).collect();
-        // Drops pixels that no task waits for, oldest first; then those needed last, except for
-        // one, so that work can continue.
+        // Drops pixels that no task waits for, oldest first; then those needed last, but for one,
+        // so that computation can proceed.
         let idle = in_memory.iter().filter(|key| !awaited.contains(key));
         let late = awaited
             .iter()
@@ -81,8 +82,8 @@ impl Project {
             num_bytes -= size(key);
             dropped.push(*key);
         }
-        // Several in a row, before the last one is waited for: workers have to change their code
-        // for it.
+        // Reads several in a row before waiting for the last: switching between reading and other
+        // tasks makes a worker load other code.
         let is_waiting = |key: &&Key| in_memory.contains(key) && !dropped.contains(key);
         let waiting: usize = awaited.iter().filter(is_waiting).map(size).sum();
         let mut reading = self.rereading.clone();
@@ -121,7 +122,7 @@ mod tests {
         ReconstructionOfAll, Reduced, Thumbnail,
     };
 
-    /// Five megapixels, 15 MB.
+    /// A photograph of five megapixels, 15 MB.
     fn photograph() -> Photograph {
         let (width, height) = (2500, 2000);
         Photograph {
@@ -152,7 +153,7 @@ mod tests {
         }
     }
 
-    /// A project with photographs and no results.
+    /// Creates a project with photographs and no results.
     fn given(count: u8) -> Project {
         let mut project = Project::default();
         let file = |n: u8| (format!("{n}.jpg"), vec![n].into());
@@ -194,7 +195,7 @@ mod tests {
                 AnyQuery::Photograph(PhotographOf(id)) => read[id as usize] += 1,
                 _ => found += 1,
             }
-            // The list is seen before anything is computed.
+            // All thumbnails are visible before anything is computed.
             let is_shown = |photo| project.shown(photo).is_some();
             assert!(found == 0 || project.document().photos.iter().all(is_shown));
         }
@@ -226,7 +227,7 @@ mod tests {
         let photo = project.document().photo(id).unwrap();
         assert!(project.photograph(photo).is_some());
         assert_eq!(do_first(&mut project), None);
-        // If that fails, it is not tried without end, and it takes part as before.
+        // A failed read is not repeated, and the photograph still takes part.
         let is_gone = |photo: &&InputPhoto| project.photograph(photo).is_none();
         let id = project.document().photos.iter().find(is_gone).unwrap().id;
         project.update(Event::Look(id));

@@ -1,4 +1,4 @@
-//! Outputs that are missing, most urgent first, and how they arrive.
+//! Missing outputs, most urgent first, and their arrival.
 
 use crate::project::{InputPhoto, Key, PhotoId, Project, Step, pairs};
 use crate::tasks::{AnyQuery, FeaturesOf, MatchesOf, Query, Request};
@@ -9,19 +9,19 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Pending {
     /// Its key.
     pub key: Key,
-    /// The query that it answers.
+    /// The query to answer.
     pub query: AnyQuery,
 }
 
 impl Pending {
-    /// The task that computes it; `None` if the project has changed since.
+    /// Returns the task that computes it; `None` if the project has changed since.
     pub fn request(&self, project: &Project) -> Option<Request> {
         self.query.request(project)
     }
 }
 
 impl Project {
-    /// Missing outputs whose inputs are available, most urgent first.
+    /// Returns missing outputs whose inputs are available, most urgent first.
     pub fn pending(&self) -> Vec<Pending> {
         match self.paused {
             true => Vec::new(),
@@ -29,7 +29,7 @@ impl Project {
         }
     }
 
-    /// As [`Project::pending`], also while computing is stopped.
+    /// Body of [`Project::pending`], also valid while computing is paused.
     pub(super) fn missing(&self) -> Vec<Pending> {
         let to_describe = self.to_describe();
         let mut queries = AnyQuery::all(self);
@@ -53,8 +53,8 @@ impl Project {
         pending
     }
 
-    /// Photographs whose features came without descriptors, which are now needed for display or for
-    /// new matches.
+    /// Returns photographs whose features came without descriptors that are now needed for display
+    /// or for new matches.
     pub(super) fn to_describe(&self) -> BTreeSet<PhotoId> {
         let photos = self.taking_part();
         let is_bare = |photo: &InputPhoto| {
@@ -77,13 +77,13 @@ impl Project {
             .collect()
     }
 
-    /// Whether an output is in the file of the project, and not needed yet.
+    /// Whether an output is available from the project's file but has not been needed yet.
     pub(super) fn is_imported(&self, query: impl Query) -> bool {
         let key = query.key(self);
         key.is_some_and(|key| self.imported.contains_key(&key))
     }
 
-    /// All queries of the current document whose keys are known.
+    /// Returns all queries of the current document whose keys are known.
     pub(super) fn needed(&self) -> BTreeMap<Key, AnyQuery> {
         let queries = AnyQuery::all(self).into_iter();
         queries
@@ -91,8 +91,8 @@ impl Project {
             .collect()
     }
 
-    /// Takes an output as bytes, or the error message of its task. An output that is no longer
-    /// needed is also kept: undo may need it.
+    /// Takes an output as bytes, or the error message of its task. Keeps outputs that are no longer
+    /// needed: undo may need them.
     pub fn done(&mut self, pending: &Pending, result: Result<Vec<u8>, String>) {
         let Pending { key, query } = *pending;
         self.revision += 1;
@@ -109,8 +109,8 @@ impl Project {
         self.balance_pixels();
     }
 
-    /// Takes the message of a failure that is not due to the input: out of memory, or a bug of the
-    /// Lab. [`Event::TryAgain`](super::Event::TryAgain) computes the output again.
+    /// Takes the message of a failure that is not due to the input, such as lack of memory or a
+    /// bug. [`Event::TryAgain`](super::Event::TryAgain) computes the output again.
     pub fn broke_down(&mut self, pending: &Pending, sentence: String) {
         let key = pending.key;
         self.revision += 1;
@@ -125,12 +125,12 @@ impl Project {
     /// Takes an intermediate output of a running task. Invalid ones are ignored.
     pub fn so_far(&mut self, pending: &Pending, bytes: &[u8]) {
         if let Ok(output) = pending.query.read(bytes) {
-            // The revision stays: nothing that is to be computed has changed.
+            // The revision does not change, since no pending output has changed.
             self.cache.set_partial(pending.key, output);
         }
     }
 
-    /// Whether the worker failed at an output that is needed.
+    /// Whether the worker failed for an output that is needed.
     pub fn can_try_again(&self) -> bool {
         let crashed = self.cache.crashed();
         let mut failed = crashed.iter().chain(&self.unread).peekable();

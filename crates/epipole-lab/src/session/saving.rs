@@ -6,7 +6,7 @@ use crate::project::{
 };
 use crate::tasks::{Packed, SaveProject};
 
-/// The folder of files of boards.
+/// Folder of the files of boards.
 const BOARDS: &str = "boards/";
 
 fn saved_photo(photo: &InputPhoto) -> SavedPhoto {
@@ -21,7 +21,7 @@ fn saved_photo(photo: &InputPhoto) -> SavedPhoto {
     }
 }
 
-/// The measure with the photographs of its ends renumbered.
+/// Renumbers the photographs of a measure's ends.
 fn renumbered(measure: &Measure, number: impl Fn(PhotoId) -> Option<PhotoId>) -> Option<Measure> {
     Some(Measure {
         ends: all_renumbered(measure.ends, number)?,
@@ -43,7 +43,7 @@ fn all_renumbered<const N: usize>(
 }
 
 impl Project {
-    /// The saved form, without photographs.
+    /// Returns the saved form, without the files of photographs.
     fn saved(&self) -> Saved {
         let photos = &self.document.photos;
         let place = |id: PhotoId| {
@@ -73,7 +73,7 @@ impl Project {
         Key::of(&(self.saved(), contents.collect::<Vec<_>>()))
     }
 
-    /// Bytes of all its files.
+    /// Returns the total size of its files, bytes.
     pub fn num_file_bytes(&self) -> usize {
         let bytes = |photo: &InputPhoto| match &photo.source {
             Source::File(bytes) => bytes.len(),
@@ -82,18 +82,19 @@ impl Project {
         self.given_photos().map(bytes).sum()
     }
 
-    /// All photographs, then those of boards.
+    /// Returns all photographs, then those of boards.
     fn given_photos(&self) -> impl Iterator<Item = &InputPhoto> {
         self.document.photos.iter().chain(&self.document.boards)
     }
 
-    /// The task that writes a zip file. [`Event::OpenProject`](super::Event::OpenProject) restores
-    /// the project from it, and [`Project::import`] its results.
+    /// Returns the task that writes a zip file. [`Event::OpenProject`](super::Event::OpenProject)
+    /// restores the project from it, and [`Project::import`] its results.
     pub fn save_request(&self) -> SaveProject {
         self.save_request_with(self.computed())
     }
 
-    /// The same without results, which are computed once more: small, and written at once.
+    /// Returns the same task without results, for a small file that is quickly written; results are
+    /// computed again.
     pub fn keep_request(&self) -> SaveProject {
         self.save_request_with(Computed::default())
     }
@@ -116,7 +117,7 @@ impl Project {
         }
     }
 
-    /// The document of a saved project, without photographs whose file is missing.
+    /// Restores the document of a saved project, without photographs whose file is missing.
     pub(super) fn restored(&mut self, saved: Saved, files: Vec<(String, Blob)>) -> Document {
         let mut document = Document {
             settings: saved.settings.checked(),
@@ -150,7 +151,7 @@ impl Project {
         document
     }
 
-    /// A photograph of a list, with a new number; `None` if its file is missing.
+    /// Restores a photograph with a new number; `None` if its file is missing.
     fn restored_photo(
         &mut self,
         list: &[InputPhoto],

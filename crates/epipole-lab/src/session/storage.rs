@@ -1,30 +1,30 @@
-//! The project that the browser stores at the choice of the reader: when it is written, and what is
-//! known about it.
+//! Storage of the project in the browser, if the reader has chosen it: when to write, and the state
+//! of what is stored.
 
 use crate::project::Key;
 
-/// Time without changes after which they are stored, seconds.
+/// Time without changes before they are written, seconds.
 const REST_S: f64 = 1.0;
 
 /// State of the stored project.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum State {
-    /// None is stored.
+    /// Nothing is stored.
     #[default]
     Empty,
-    /// A project that is not open.
+    /// A project other than the open one is stored.
     Closed,
-    /// The open project, with every change.
+    /// The open project is stored, with every change.
     Open,
 }
 
-/// Storage of the project in the browser.
+/// Project stored in the browser.
 #[derive(Default)]
 pub(crate) struct Storage {
     state: State,
     /// Key of the stored version, or of the one being written.
     written: Option<Key>,
-    /// Key of a changed version, and the time of the change in seconds.
+    /// Key of the version to be written, and the time of the last change, seconds.
     changed: Option<(Key, f64)>,
     /// Whether to confirm the first write to the reader.
     is_new: bool,
@@ -48,24 +48,24 @@ impl Storage {
         self.state == State::Open
     }
 
-    /// Stores the open project from now on.
+    /// Starts to store the open project.
     pub(crate) fn turn_on(&mut self) {
         self.state = State::Open;
         self.is_new = true;
     }
 
-    /// Stores nothing from now on.
+    /// Stops storing.
     pub(crate) fn turn_off(&mut self) {
         *self = Self::default();
     }
 
-    /// A project is stored that is not open.
+    /// Notes that a project is stored which is not open.
     pub(crate) fn close(&mut self) {
         *self = Self::default();
         self.state = State::Closed;
     }
 
-    /// The stored project was restored; its version has this key.
+    /// Notes that the stored project was restored, with this key.
     pub(crate) fn restored(&mut self, key: Key) {
         *self = Self {
             state: State::Open,
@@ -75,7 +75,7 @@ impl Storage {
         };
     }
 
-    /// Seconds until the open project is to be written; `None` if it is stored as it is.
+    /// Returns the seconds until the open project is to be written; `None` if it is unchanged.
     ///
     /// * `key`: key of the open project
     /// * `now_s`: current time, seconds
@@ -94,12 +94,12 @@ impl Storage {
         Some(since_s + REST_S - now_s)
     }
 
-    /// The version of this key is being written.
+    /// Notes that the version with this key is being written.
     pub(crate) fn begin(&mut self, key: Key) {
         self.written = Some(key);
     }
 
-    /// A version was written. True for the first one since [`Storage::turn_on`].
+    /// Notes that a version was written. True for the first one since [`Storage::turn_on`].
     pub(crate) fn end(&mut self) -> bool {
         std::mem::take(&mut self.is_new)
     }

@@ -164,7 +164,7 @@ impl Project {
         self.document.photos.push(given);
     }
 
-    /// A photograph with a number and a name that no other one of the list has.
+    /// Creates a photograph with a number and a name that are unique in the list.
     pub(super) fn given(&self, list: &[InputPhoto], name: &str, source: Source) -> InputPhoto {
         InputPhoto {
             id: self.next_id + 1,
@@ -229,7 +229,7 @@ impl Project {
         }
     }
 
-    /// Repairs the view: its photographs must exist and be in order.
+    /// Repairs the view: selected photographs must exist, and pairs be in order.
     fn look_at_what_is_there(&mut self) {
         let photos = &self.document.photos;
         if self.document.photo(self.view.photo).is_none() {
@@ -257,8 +257,8 @@ impl Project {
     }
 }
 
-/// The name, without folders, and with a number if another photograph has it already. Endings do
-/// not count: an exported photograph may get another one.
+/// Returns the name without folders, with a number appended if another photograph has it already.
+/// Extensions are ignored, as an exported photograph may get another one.
 pub(super) fn unique_name(list: &[InputPhoto], name: &str) -> String {
     let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
     let clean: String = (name.chars())

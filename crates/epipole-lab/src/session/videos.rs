@@ -1,10 +1,11 @@
-//! Videos, one after the other, part by part: only the sharpest frame of each part is used.
+//! Frames of videos, one video after the other, part by part: only the sharpest frame of each part
+//! is used.
 
 use super::host::Host;
 use crate::project::Blob;
 use std::collections::VecDeque;
 
-/// A video that is being read, or waits for it.
+/// A video being read or waiting.
 struct Reading {
     video: u32,
     num_parts: u32,
@@ -18,7 +19,7 @@ struct Reading {
 pub(crate) struct Videos(VecDeque<Reading>);
 
 impl Videos {
-    /// Adds a video, of which `num_parts` frames are used.
+    /// Adds a video, from which `num_parts` frames are taken.
     pub(crate) fn add(&mut self, video: u32, num_parts: u32, host: &mut impl Host) {
         self.0.push_back(Reading {
             video,
@@ -26,19 +27,19 @@ impl Videos {
             part: 0,
             chosen: Vec::new(),
         });
-        // The others wait: each takes the machine for itself.
+        // Others wait: decoding a video needs the whole machine.
         if self.0.len() == 1 {
             host.ask_for_frames(video, 0, num_parts);
         }
     }
 
-    /// The requested part of a video, if it is the one being read.
+    /// Returns the requested part of a video, if it is the one being read.
     pub(crate) fn part_of(&self, video: u32) -> Option<u32> {
         let first = self.0.front().filter(|reading| reading.video == video);
         first.map(|reading| reading.part)
     }
 
-    /// Progress of the first video, in words.
+    /// Describes the progress of the first video.
     pub(crate) fn words(&self) -> Option<String> {
         let first = self.0.front()?;
         Some(format!(
@@ -48,8 +49,8 @@ impl Videos {
         ))
     }
 
-    /// Keeps the sharpest frame of the requested part, if it had any. Returns the frames of all
-    /// parts after the last.
+    /// Keeps the sharpest frame of the requested part, if any. Returns the frames of all parts
+    /// after the last.
     pub(crate) fn take(
         &mut self,
         video: u32,
@@ -71,7 +72,7 @@ impl Videos {
         Some(done.chosen)
     }
 
-    /// Drops a video, and starts the next.
+    /// Drops a video and starts the next.
     pub(crate) fn give_up(&mut self, video: u32, host: &mut impl Host) {
         let before = self.part_of(video);
         self.0.retain(|reading| reading.video != video);

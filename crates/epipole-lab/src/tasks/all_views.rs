@@ -1,4 +1,4 @@
-//! Depth of all views: one cloud from all photographs whose cameras are known.
+//! Depth of all views: one cloud from all registered photographs.
 
 use super::dense_cloud::DenseCloud;
 use super::reconstruction::Component;
@@ -7,12 +7,12 @@ use super::task::{Destination, Query, Task};
 use crate::project::{Key, Project, Step};
 use serde::{Deserialize, Serialize};
 
-/// Finds the depth of each photograph and fuses them to one cloud.
+/// Estimates a depth map for each photograph and fuses them into one cloud.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FuseViews {
     /// The photographs that take part; `None` for those without a camera.
     pub photographs: Vec<Option<Reduced>>,
-    /// Their cameras, in pixels of the photographs before they were downscaled, and the points.
+    /// Cameras, in pixels of the photographs before downscaling, and points.
     pub component: Component,
 }
 
@@ -24,7 +24,7 @@ impl Task for FuseViews {
     }
 }
 
-/// The depth of all views of the component that is looked at.
+/// Query for the depth of all views of the current component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AllViews;
 
@@ -81,7 +81,7 @@ impl Query for AllViews {
 }
 
 impl Project {
-    /// The depth of all views with its key, if it is part of the cloud and there.
+    /// Returns the depth of all views with its key, if it is available and part of the cloud.
     pub fn all_views(&self) -> Option<(Key, &DenseCloud)> {
         let cloud = self.get(AllViews).filter(|_| self.document.all_views)?;
         Some((AllViews.key(self)?, cloud))

@@ -1,4 +1,4 @@
-//! Code that finds the depth of all views and their surface, as `epipole mvs` does.
+//! Code that estimates the depth of all views and their surface, as `epipole mvs` does.
 
 use super::all_views::FuseViews;
 use super::cloud_vertex::CloudVertex;
@@ -16,12 +16,12 @@ use epipole::stereo::PointCloud;
 use image::RgbImage;
 use nalgebra::Point3;
 
-/// Shares of the work after which views are prepared, depth maps estimated and points fused.
+/// Progress after which views are prepared, depth maps estimated and points fused.
 const PREPARED: f32 = 0.02;
 const ESTIMATED: f32 = 0.77;
 const FUSED: f32 = 0.8;
 
-/// Edge of a voxel in pixels of the depth maps.
+/// Edge of a voxel, pixels of the depth maps.
 const VOXEL_PX: f64 = 1.5;
 /// Number of pixels with a depth up to which voxels have this edge: 0.8 million triangles, which a
 /// browser draws in a tenth of a second.
@@ -54,7 +54,7 @@ impl Run for FuseViews {
             photos.push(image.ok_or("a photograph did not arrive whole")?);
         }
         let longer = photos.iter().map(|photo| photo.width().max(photo.height()));
-        // They have their size already.
+        // The photographs are downscaled already.
         let options = MvsOptions::default().with_max_size_px(longer.max().unwrap_or(0).max(32));
         let mut watch =
             |status: Status| monitor(Progress::Share(status.share, status.stage.words()));
@@ -79,7 +79,8 @@ impl Run for FuseViews {
         let mesh_options = MeshOptions::default().with_voxel_size_px(VOXEL_PX * coarser);
         let part = &mut Part::new(&mut watch, FUSED, 1.0);
         let mesh = match mesh_depth_maps(&views, &maps, &mesh_options, part) {
-            // Too many voxels, if depths differ by orders of magnitude: the points remain.
+            // Depths that differ by orders of magnitude need too many voxels: only the points
+            // remain.
             Err(Error::OutOfRange { .. }) => Mesh::default(),
             mesh => mesh.map_err(sentence)?,
         };
@@ -103,7 +104,7 @@ impl Run for FuseViews {
     }
 }
 
-/// Number of pixels with a depth.
+/// Counts pixels with a depth.
 fn num_known(maps: &[DepthMap]) -> usize {
     let counts = maps.iter().flat_map(|map| &map.num_views);
     counts.filter(|count| **count > 0).count()
@@ -120,7 +121,7 @@ fn bytes_of(cloud: &PointCloud) -> Vec<u8> {
     vertices.flat_map(CloudVertex::to_bytes).collect()
 }
 
-/// Reason why no photograph has a neighbor.
+/// Explains why no photograph has a neighbor.
 fn why_no_views(error: Error, known: &Reconstruction, options: &MvsOptions) -> String {
     let (Error::Degenerate { .. }, Some(widest)) = (&error, widest_deg(known)) else {
         return sentence(error);
@@ -134,7 +135,8 @@ fn why_no_views(error: Error, known: &Reconstruction, options: &MvsOptions) -> S
     }
 }
 
-/// The widest angle between two rays to a point, degrees; `None` if no two photographs share one.
+/// Returns the widest angle between two rays to a point, degrees; `None` if no two photographs
+/// share a point.
 fn widest_deg(known: &Reconstruction) -> Option<f64> {
     let center = |image: u32| {
         let posed = known.cameras.get(image as usize)?.as_ref()?;

@@ -12,7 +12,7 @@ impl Archive {
         Self(ZipWriter::new(Cursor::new(Vec::new())))
     }
 
-    /// Adds a file; photographs are compressed already, so they are stored.
+    /// Adds a file. Photographs are already compressed, so they are stored.
     pub(super) fn add(&mut self, name: &str, bytes: &[u8]) -> Result<(), String> {
         let is_packed = [".jpg", ".jpeg", ".png", ".webp"]
             .iter()

@@ -1,5 +1,5 @@
-//! The board in a photograph of full size: read and searched in one go, so that only a small
-//! picture travels.
+//! Board detection in a photograph of full size, read in the same task so that only a small image
+//! is transferred.
 
 use super::photograph::Photograph;
 #[cfg(feature = "files")]
@@ -8,29 +8,29 @@ use super::task::{Query, Task};
 use crate::project::{BoardOptions, InputPhoto, Key, PhotoId, Project, Source, Step};
 use serde::{Deserialize, Serialize};
 
-/// Pixels of the picture for the screen.
+/// Maximum number of pixels of the image for the screen.
 #[cfg(feature = "files")]
 const SHOWN_PIXELS: u64 = 1_200_000;
 
-/// A board that was looked for in a photograph.
+/// Result of board detection in a photograph.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BoardFound {
-    /// The photograph, reduced for the screen.
+    /// The photograph, downscaled for the screen.
     pub picture: Photograph,
-    /// For each mark, row by row, its pixel in the photograph of full size, or none where something
-    /// hides it; no marks at all if the board was not found.
+    /// Pixel of each mark in the photograph of full size, row by row; `None` for hidden marks.
+    /// Empty if the board was not found.
     pub marks: Vec<Option<[f64; 2]>>,
-    /// Why it was not found.
+    /// Reason if the board was not found.
     pub problem: Option<String>,
-    /// Marks along the longer and the shorter side of another grid that was found in its place.
+    /// Marks along the longer and the shorter side of another grid that was found instead.
     pub other_grid: Option<(u32, u32)>,
 }
 
 impl BoardFound {
-    /// Position of a mark in the downscaled photograph.
+    /// Converts a position to the downscaled photograph.
     pub fn in_picture(&self, [u, v]: [f64; 2]) -> [f64; 2] {
         let full = self.picture.full_size;
-        // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
+        // Pixel centers are integers, so a photograph begins half a pixel before the first.
         let moved = |at: f64, small: u32, full: u32| {
             (at + 0.5) * f64::from(small) / f64::from(full.max(1)) - 0.5
         };
@@ -40,7 +40,7 @@ impl BoardFound {
         ]
     }
 
-    /// Number of visible marks.
+    /// Counts the visible marks.
     pub fn num_seen(&self) -> usize {
         self.marks.iter().flatten().count()
     }
@@ -59,7 +59,7 @@ impl Task for FindBoard {
     type Output = BoardFound;
 }
 
-/// The board in the photograph of this number.
+/// Query for the board in the photograph with this number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BoardOf(pub PhotoId);
 
@@ -83,7 +83,7 @@ impl Query for BoardOf {
         photo.is_some_and(|photo| !photo.excluded)
     }
 
-    /// Boards come first during their step, and else last.
+    /// Boards come first in their step, and last in all others.
     fn priority(self, project: &Project) -> u8 {
         match project.view.step {
             Step::Calibrate => 0,
@@ -105,7 +105,7 @@ impl Query for BoardOf {
 }
 
 impl Project {
-    /// The photographs of a board that take part.
+    /// Returns the photographs of a board that take part.
     pub fn boards_taking_part(&self) -> Vec<&InputPhoto> {
         let readable = |photo: &&InputPhoto| self.failure(BoardOf(photo.id)).is_none();
         let boards = self.document.boards.iter();
@@ -115,8 +115,8 @@ impl Project {
             .collect()
     }
 
-    /// Width and height that most photographs have in which the board was found; the first of those
-    /// with as many.
+    /// Returns the most frequent width and height among photographs in which the board was found;
+    /// of ties, the first in the list.
     pub fn size_of_boards(&self) -> Option<(u32, u32)> {
         let found = |photo: &&InputPhoto| {
             Some(self.get(BoardOf(photo.id))?).filter(|found| !found.marks.is_empty())
@@ -126,7 +126,7 @@ impl Project {
             .map(|found| found.picture.full_size)
             .collect();
         let count = |size: &(u32, u32)| sizes.iter().filter(|other| *other == size).count();
-        // The last of equals is the first of the list.
+        // `max_by_key` returns the last of equals, hence the reversed order.
         sizes.iter().rev().max_by_key(|size| count(size)).copied()
     }
 }
@@ -141,7 +141,7 @@ impl Run for FindBoard {
         use epipole::feature::photo_to_gray;
         use epipole::imaging::reduce_rgb;
         use epipole::progress::Status;
-        // The unit of length does not matter here.
+        // The unit of length is irrelevant here.
         let board = core_board(&self.options, 1.0)?;
         report(monitor, 0.0, "reading")?;
         let whole = of_sensor(&self.source)?;
@@ -178,10 +178,10 @@ impl Run for FindBoard {
     }
 }
 
-/// The photograph as the sensor gave it, which is not always upright: a lens knows no other frame.
+/// Reads a photograph in the sensor's orientation, as lens distortion is defined in its frame.
 ///
-/// # Errors
-/// A sentence, if a file is none that can be read, or there is no such photograph of a board.
+/// # Errors A message, if the file is unreadable, or there is no photograph of a board with this
+/// index.
 #[cfg(feature = "files")]
 fn of_sensor(source: &Source) -> Result<image::RgbImage, String> {
     use super::board_sample;

@@ -5,8 +5,8 @@ use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Rotation about x, y and z in degrees, and position of the board's middle: to the right, down and
-/// away, in centimeters. The last board is half outside of the image.
+/// Poses of the boards: rotation about x, y and z in degrees, and the board's center to the right,
+/// down and away, in centimeters. The last board is partly outside of the image.
 const POSES: [[f64; 6]; 10] = [
     [6.0, -5.0, 3.0, 0.0, 0.0, 40.0],
     [35.0, 0.0, 5.0, -3.0, -2.0, 38.0],
@@ -26,10 +26,9 @@ const NOISE: f64 = 0.008;
 #[cfg(test)]
 pub(super) const COUNT: usize = POSES.len();
 
-/// A photograph of the set, `None` beyond its end.
+/// Renders a photograph of the set; `None` beyond its end.
 ///
-/// # Errors
-/// As [`Board::new`] and [`Intrinsics::new`], which do not fail for these numbers.
+/// # Errors As [`Board::new`] and [`Intrinsics::new`], which do not fail for these values.
 pub(super) fn photograph(index: u8) -> Result<Option<RgbImage>, epipole::Error> {
     let Some([x, y, z, right, down, away]) = POSES.get(usize::from(index)) else {
         return Ok(None);

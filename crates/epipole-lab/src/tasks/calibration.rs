@@ -1,4 +1,4 @@
-//! A camera from boards.
+//! Calibration of a camera from photographs of boards.
 
 use super::board::BoardOf;
 #[cfg(feature = "vision")]
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct ViewFound {
     /// Root mean square of its reprojection errors, pixels.
     pub rms_px: f64,
-    /// Marks seen.
+    /// Number of visible marks.
     pub num_marks: u32,
     /// Rotation of camera from board, as a quaternion i, j, k, w.
     pub rotation: [f64; 4],
@@ -20,7 +20,7 @@ pub struct ViewFound {
     pub translation: [f64; 3],
 }
 
-/// A calibrated camera, and how sure it is.
+/// A calibrated camera with its uncertainty.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// The camera.
@@ -29,14 +29,14 @@ pub struct Calibration {
     pub rms_px: f64,
     /// One standard deviation of focal lengths and principal point, pixels.
     pub std_dev_k: [f64; 4],
-    /// One standard deviation of each number of the lens.
+    /// One standard deviation of each distortion parameter.
     pub std_dev_lens: Vec<f64>,
-    /// The share of the photograph that boards reach.
+    /// Fraction of the image covered by boards.
     pub coverage: f64,
-    /// Of each photograph that was given.
+    /// Results of each photograph given.
     pub views: Vec<Option<ViewFound>>,
-    /// Reasons why it is less accurate than the errors suggest: index of the photograph, if it is
-    /// about one, and a sentence.
+    /// Reasons why it is less accurate than the errors suggest: index of the photograph concerned,
+    /// if any, and a message.
     pub warnings: Vec<(Option<u32>, String)>,
 }
 
@@ -47,7 +47,7 @@ pub struct Calibrate {
     pub options: CalibrationOptions,
     /// Width and height of all photographs, pixels.
     pub size: (u32, u32),
-    /// The marks in each, as [`BoardFound::marks`](super::BoardFound::marks); none at all where the
+    /// Marks of each photograph, as [`BoardFound::marks`](super::BoardFound::marks); empty if the
     /// board was not found.
     pub views: Vec<Vec<Option<[f64; 2]>>>,
 }
@@ -56,7 +56,7 @@ impl Task for Calibrate {
     type Output = Calibration;
 }
 
-/// The camera that the boards give.
+/// Query for the camera calibrated from the boards.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CalibrationOfBoards;
 
@@ -68,7 +68,7 @@ impl Query for CalibrationOfBoards {
         vec![Self]
     }
 
-    /// Known once all photographs are searched, if two boards were found.
+    /// Returns a key once all photographs are searched, if two boards were found.
     fn key(self, project: &Project) -> Option<Key> {
         let views = project.board_views()?;
         if views.iter().filter(|marks| !marks.is_empty()).count() < 2 {
@@ -113,8 +113,8 @@ impl Query for CalibrationOfBoards {
 }
 
 impl Project {
-    /// The marks of each photograph that takes part, none where the board was not found or the size
-    /// is another one; `None` until all were looked through.
+    /// Returns the marks of each photograph that takes part, empty if the board was not found or
+    /// the size differs; `None` until all are searched.
     fn board_views(&self) -> Option<Vec<&[Option<[f64; 2]>]>> {
         let size = self.size_of_boards();
         let marks = |photo: &&InputPhoto| {
@@ -125,7 +125,7 @@ impl Project {
         self.boards_taking_part().iter().map(marks).collect()
     }
 
-    /// The place of a photograph among those of the calibration.
+    /// Returns the index of a photograph among those of the calibration.
     pub fn place_of_board(&self, photo: &InputPhoto) -> Option<usize> {
         let boards = self.boards_taking_part();
         boards.iter().position(|other| other.id == photo.id)

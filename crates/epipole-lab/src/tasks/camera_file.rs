@@ -1,4 +1,4 @@
-//! Files of cameras: those of many programs are read, with poses or without; those of four written.
+//! Camera files: reading of many formats, with or without poses, and writing of three.
 
 use super::task::Task;
 use crate::project::{Blob, KnownPoses, LensCamera};
@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct ReadCameras {
     /// Names and contents of the files.
     pub files: Vec<(String, Blob)>,
-    /// The photographs, whose poses are looked for. Of several cameras without poses the first of
-    /// their sizes is taken, and a camera without a size gets the first size.
+    /// Photographs whose poses are looked up. Of several cameras without poses, the first with the
+    /// size of a photograph is used; a camera without a size gets the first size.
     pub photos: Vec<PhotoFile>,
 }
 
@@ -19,7 +19,7 @@ pub struct ReadCameras {
 pub struct PhotoFile {
     /// Its name.
     pub name: String,
-    /// Width and height as the sensor gave it, pixels, once it is read.
+    /// Width and height in the sensor's orientation, pixels, once it is read.
     pub size: Option<(u32, u32)>,
 }
 
@@ -27,23 +27,23 @@ impl Task for ReadCameras {
     type Output = CamerasRead;
 }
 
-/// Cameras from files.
+/// Result of reading camera files.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum CamerasRead {
-    /// The camera of photographs of its size.
+    /// A camera, for photographs of its size.
     Camera(LensCamera),
     /// Cameras and poses of photographs.
     Poses(KnownPoses),
 }
 
-/// Format of a camera file that is written.
+/// Format of a written camera file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum CameraFormat {
-    /// YAML of OpenCV.
+    /// OpenCV's YAML.
     OpenCv,
-    /// YAML of ROS.
+    /// ROS's YAML.
     Ros,
-    /// `cameras.txt` of COLMAP.
+    /// COLMAP's `cameras.txt`.
     Colmap,
 }
 
@@ -116,16 +116,16 @@ mod run {
     }
 
     impl ReadCameras {
-        /// The model of the files, and the name of one of them; `None` if they are none.
+        /// Returns the model in the files, and the name of one of them; `None` if they contain
+        /// none.
         ///
-        /// # Errors
-        /// A message for a model that is wrong, or without the sizes of its images.
+        /// # Errors A message for an invalid model, or one without the sizes of its images.
         fn model(&self) -> Result<Option<(&str, Model)>, String> {
             let name = self.files.first().map_or("", |(name, _)| name);
             let is_one_file = self.files.len() == 1 && !is_alone(name);
             let folder = match read_model_folder(self) {
                 Err(error) if !is_one_file => return Err(format!("{name}: {error}")),
-                // One file may be a camera file, and gets a sentence as such.
+                // A single file may be a camera file, with error messages of its own.
                 found => found.unwrap_or(None),
             };
             let of_file = |(name, bytes): &(String, Blob)| {
@@ -134,7 +134,7 @@ mod run {
             let read = folder.or_else(|| self.files.iter().find_map(of_file));
             let is_unread = |photo: &PhotoFile| photo.size.is_none();
             match read {
-                // Its sizes are those of the photographs.
+                // The model takes its sizes from the photographs.
                 Some(read)
                     if read.format == ModelFormat::Bundler && self.photos.iter().any(is_unread) =>
                 {
@@ -147,7 +147,8 @@ mod run {
             }
         }
 
-        /// Poses of the photographs; `None` if there are none and a camera may be meant.
+        /// Returns poses of the photographs; `None` if there are none and the files may be meant as
+        /// a camera.
         fn poses(&self, file: &str, model: &Model) -> Result<Option<KnownPoses>, String> {
             let image = |image: &ModelImage| {
                 let pose = &image.cam_from_world;
@@ -171,7 +172,7 @@ mod run {
             let (num_images, few) = (poses.images.len(), self.photos.len() < 2);
             match (num_known, poses.images.first()) {
                 (2.., _) => Ok(Some(poses)),
-                // One file may be opened for its camera.
+                // A single file may be opened for its camera.
                 _ if self.files.len() == 1 => Ok(None),
                 (_, None) => Err(format!("{file}: the model has no images")),
                 _ if few => Err(format!(
@@ -191,7 +192,7 @@ mod run {
             }
         }
 
-        /// The camera of a file.
+        /// Reads the camera of a file.
         fn camera(&self, name: &str, file: &[u8]) -> Result<LensCamera, String> {
             let about = |why: String| format!("{name}: {why}");
             if !is_camera_file(file) {
@@ -221,7 +222,7 @@ mod run {
         }
     }
 
-    /// Whether a file of COLMAP's poses came without that of its cameras.
+    /// Whether a file of COLMAP's poses was given without that of its cameras.
     fn is_alone(name: &str) -> bool {
         ["images.txt", "images.bin"].contains(&&*name.to_lowercase())
     }

@@ -1,10 +1,10 @@
-//! A camera of a reconstruction.
+//! Camera of a reconstruction.
 
 use epipole::camera::Lens;
 use nalgebra::{Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// A camera that was found.
+/// Registered camera.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CameraFound {
     /// Focal lengths and principal point, pixels.
@@ -16,7 +16,7 @@ pub struct CameraFound {
 }
 
 impl CameraFound {
-    /// The camera as the core has it, the same to the last bit.
+    /// Returns the camera as a type of the core, bit for bit.
     ///
     /// * `width`, `height`: size of its image, pixels
     ///
@@ -45,18 +45,18 @@ impl CameraFound {
         })
     }
 
-    /// Position of the camera in the world.
+    /// Returns the position of the camera in the world.
     pub fn center(&self) -> Point3<f64> {
         let (rotation, origin) = self.transform(&Point3::origin());
         Point3::from(-(rotation.transpose() * origin.coords))
     }
 
-    /// The direction in the world in which a pixel looks, of any length; distortion left aside.
+    /// Returns the viewing direction of a pixel in the world, unnormalized, ignoring distortion.
     pub fn ray(&self, pixel: [f64; 2]) -> Vector3<f64> {
         self.rays()(pixel)
     }
 
-    /// The same for many pixels.
+    /// Returns [`ray`](Self::ray) as a function for many pixels.
     pub fn rays(&self) -> impl Fn([f64; 2]) -> Vector3<f64> + 'static {
         let [fu, fv, cu, cv] = self.intrinsics;
         let (rotation, _) = self.transform(&Point3::origin());
@@ -64,12 +64,12 @@ impl CameraFound {
         move |[u, v]| world_from_cam * Vector3::new((u - cu) / fu, (v - cv) / fv, 1.0)
     }
 
-    /// Depth of a point in the camera, along its axis; negative behind it.
+    /// Returns the depth of a point along the camera's axis; negative behind it.
     pub fn depth(&self, position: [f64; 3]) -> f64 {
         self.transform(&Point3::from(position)).1.z
     }
 
-    /// The pixel that shows a place through a lens; `None` where the lens does not see it.
+    /// Projects a point through a lens; `None` if the lens does not see it.
     pub fn project(&self, position: [f64; 3], lens: &Lens) -> Option<[f64; 2]> {
         let (_, p) = self.transform(&Point3::from(position));
         let seen = lens.project(&p.coords)?;
@@ -77,7 +77,7 @@ impl CameraFound {
         Some([fu * seen.x + cu, fv * seen.y + cv])
     }
 
-    /// A rotation of camera from world, and a point in the camera's frame.
+    /// Returns the rotation of camera from world, and a point in the camera's frame.
     pub(crate) fn transform(&self, position: &Point3<f64>) -> (Matrix3<f64>, Point3<f64>) {
         let [i, j, k, w] = self.rotation;
         let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));

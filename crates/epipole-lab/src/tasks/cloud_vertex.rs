@@ -1,8 +1,8 @@
-//! A point of a cloud or a surface, and its bytes.
+//! Point of a cloud or a surface, and its encoding in bytes.
 
 /// Number of bytes of a point: three floats, normal, color, number of photographs.
 pub(super) const NUM_BYTES: usize = 19;
-/// Length of a normal in bytes.
+/// Length of a unit normal as bytes.
 #[cfg(feature = "vision")]
 const NORMAL: f64 = 127.0;
 

@@ -1,4 +1,4 @@
-//! Settings and errors of the core, from and to those of the Lab.
+//! Conversion of settings and errors between the core and the Lab.
 
 use crate::project::{BoardOptions, BoardPattern};
 #[cfg(any(feature = "vision", feature = "files"))]
@@ -9,7 +9,7 @@ use epipole::camera::{Camera, LensKind};
 #[cfg(feature = "files")]
 use epipole::camera::{Intrinsics, Lens};
 
-/// Why the core gave no answer, in words.
+/// Returns the message of a core error.
 #[cfg(any(feature = "vision", feature = "files"))]
 pub(super) fn sentence(error: epipole::Error) -> String {
     match error {
@@ -18,7 +18,7 @@ pub(super) fn sentence(error: epipole::Error) -> String {
     }
 }
 
-/// Why a file is no photograph, in words that follow "cannot be read: ".
+/// Returns the reason why a file is not a photograph, to follow "cannot be read: ".
 #[cfg(feature = "files")]
 pub(super) fn unreadable(error: epipole_io::Error) -> String {
     match error {
@@ -27,10 +27,9 @@ pub(super) fn unreadable(error: epipole_io::Error) -> String {
     }
 }
 
-/// The board.
+/// Converts the board.
 ///
-/// # Errors
-/// A sentence, if it is none.
+/// # Errors A message, if it is invalid.
 pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board, String> {
     let pattern = match options.pattern {
         BoardPattern::Chessboard => Pattern::Chessboard,
@@ -40,7 +39,7 @@ pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board,
     Board::new(pattern, columns, rows, square_m).map_err(|error| error.to_string())
 }
 
-/// The model of a lens as the core has it.
+/// Converts the distortion model.
 #[cfg(any(feature = "vision", feature = "files"))]
 pub(super) fn lens_kind(model: LensModel) -> LensKind {
     match model {
@@ -51,10 +50,9 @@ pub(super) fn lens_kind(model: LensModel) -> LensKind {
     }
 }
 
-/// A calibrated camera.
+/// Converts a calibrated camera to a type of the core.
 ///
-/// # Errors
-/// A sentence, if its numbers are no camera's.
+/// # Errors A message, if its numbers are invalid.
 #[cfg(feature = "files")]
 pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     let [fu, fv, cu, cv] = camera.k;
@@ -68,7 +66,7 @@ pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     })
 }
 
-/// The camera as the Lab has it; the opposite of `core_lens_camera`.
+/// Converts a calibrated camera from the core; inverse of `core_lens_camera`.
 #[cfg(any(feature = "vision", feature = "files"))]
 pub(super) fn lab_lens_camera(camera: &Camera) -> LensCamera {
     let lens = match camera.lens.kind() {

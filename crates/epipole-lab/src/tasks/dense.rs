@@ -8,47 +8,45 @@ use serde::{Deserialize, Serialize};
 /// the upper one; its points are further left, or further up, in the second image.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Dense {
-    /// Width of both pictures, pixels.
+    /// Width of both images, pixels.
     pub width: u32,
-    /// Height of both pictures, pixels.
+    /// Height of both images, pixels.
     pub height: u32,
-    /// By how much photographs were reduced: 1, 2, 4 and so on.
+    /// Factor by which photographs were downscaled: 1, 2, 4 and so on.
     pub factor: u32,
-    /// Whether matches share a column, not a row.
+    /// Whether matches share a column instead of a row.
     pub is_vertical: bool,
-    /// Whether the first picture is of the second photograph.
+    /// Whether the first image belongs to the second photograph.
     pub is_swapped: bool,
-    /// The camera of the first picture, without distortion.
+    /// Camera of the first image, without distortion.
     pub camera: CameraFound,
-    /// Distance of the cameras, in units of the reconstruction.
+    /// Distance of the cameras, units of the reconstruction.
     pub baseline: f64,
-    /// The disparities that sparse points propose, pixels of the photographs.
+    /// Disparity range given by the sparse points, pixels of the photographs.
     pub proposed_px: Option<[i32; 2]>,
-    /// Those that were looked for.
+    /// Disparity range that was searched.
     pub range_px: [i32; 2],
-    /// Number of pixels of the first image that its photograph covers: it is rotated, with a
-    /// border.
+    /// Number of pixels of the first image that its photograph covers; rotation leaves a border.
     pub num_shown: u32,
-    /// The share of them with an answer.
+    /// Fraction of them with a disparity.
     pub density: f64,
-    /// Disparities of the first picture, pixels of its own, NaN for none; four bytes each, least
-    /// first.
+    /// Disparities of the first image, in its pixels, NaN for none; four bytes each, little-endian.
     pub disparity: Blob,
-    /// The first picture: red, green, blue, row by row.
+    /// First image: red, green, blue, row by row.
     pub left: Blob,
-    /// The second picture.
+    /// Second image, in the same format.
     pub right: Blob,
 }
 
 impl Dense {
-    /// Whether there are as many numbers and colors as pixels.
+    /// Whether there are as many disparities and colors as pixels.
     pub fn is_whole(&self) -> bool {
         let pixels = u64::from(self.width) * u64::from(self.height);
         let has = |bytes: &Blob, each: u64| pixels.checked_mul(each) == Some(bytes.len() as u64);
         has(&self.disparity, 4) && has(&self.left, 3) && has(&self.right, 3)
     }
 
-    /// The disparity of a pixel of the first image, pixels; `None` without an answer.
+    /// Returns the disparity of a pixel of the first image, pixels; `None` without one.
     pub fn disparity(&self, u: u32, v: u32) -> Option<f32> {
         if u >= self.width || v >= self.height {
             return None;
@@ -58,20 +56,20 @@ impl Dense {
         Some(f32::from_le_bytes(bytes)).filter(|d| d.is_finite())
     }
 
-    /// The depth of a pixel, in units of the reconstruction, along the axis of the first image's
-    /// camera: `Z = f B / d`. `None` without an answer, and at infinity.
+    /// Returns the depth of a pixel along the axis of the first image's camera, `Z = f B / d`, in
+    /// units of the reconstruction. `None` without a disparity, and at infinity.
     pub fn depth(&self, u: u32, v: u32) -> Option<f64> {
         let disparity = f64::from(self.disparity(u, v)?);
         let depth = self.focal_px() * self.baseline / disparity;
         (disparity > 0.0 && depth.is_finite()).then_some(depth)
     }
 
-    /// The focal length along which disparities are measured, pixels.
+    /// Returns the focal length along which disparities are measured, pixels.
     pub fn focal_px(&self) -> f64 {
         self.camera.intrinsics[usize::from(self.is_vertical)]
     }
 
-    /// The matching pixel in the second image.
+    /// Returns the matching pixel in the second image.
     pub fn matched(&self, u: u32, v: u32) -> Option<[f64; 2]> {
         let disparity = f64::from(self.disparity(u, v)?);
         let (u, v) = (f64::from(u), f64::from(v));
@@ -81,7 +79,7 @@ impl Dense {
         })
     }
 
-    /// Every n-th pixel along rows and columns that has a depth, and the depth.
+    /// Returns every n-th pixel along rows and columns that has a depth, with the depth.
     pub fn deep_pixels(&self, every: u32) -> impl Iterator<Item = ([u32; 2], f64)> {
         let step = every.max(1) as usize;
         let rows = (0..self.height).step_by(step);
@@ -89,7 +87,7 @@ impl Dense {
         pixels.filter_map(|[u, v]| Some(([u, v], self.depth(u, v)?)))
     }
 
-    /// The points of these pixels, in the frame of the reconstruction, with their colors.
+    /// Returns the points of these pixels in the frame of the reconstruction, with their colors.
     pub fn points(&self, every: u32) -> impl Iterator<Item = ([f64; 3], [u8; 3])> {
         let (center, ray) = (self.camera.center(), self.camera.rays());
         self.deep_pixels(every).filter_map(move |([u, v], depth)| {
@@ -100,7 +98,7 @@ impl Dense {
         })
     }
 
-    /// The depths that all but the nearest and the farthest hundredth of pixels lie between; `None`
+    /// Returns the depth range of all pixels without the nearest and the farthest percent; `None`
     /// without any.
     pub fn depth_range(&self) -> Option<[f64; 2]> {
         let pixels = (0..self.height).flat_map(|v| (0..self.width).map(move |u| (u, v)));

@@ -1,4 +1,4 @@
-//! The depth of all views: a cloud of points and a surface, as bytes.
+//! Depth of all views: a cloud of points and a surface, as bytes.
 
 use super::are_finite;
 use super::cloud_vertex::{CloudVertex, NUM_BYTES};
@@ -14,20 +14,20 @@ pub struct DenseCloud {
     pub num_registered: u32,
     /// Width and height of the largest depth map, pixels.
     pub size: (u32, u32),
-    /// Side of a pixel of the depth maps in pixels of the photographs, the largest.
+    /// Maximum side of a depth map's pixel, in pixels of its photograph.
     pub pixel_px: f64,
-    /// Share of the pixels of all depth maps with a depth.
+    /// Fraction of the pixels of all depth maps with a depth.
     pub density: f64,
-    /// The points, 19 bytes each.
+    /// Points, 19 bytes each.
     pub points: Blob,
-    /// The vertices of a surface of the same depth maps, 19 bytes each.
+    /// Vertices of the surface from the same depth maps, 19 bytes each.
     pub vertices: Blob,
     /// Indices of the three vertices of each triangle, 12 bytes, counterclockwise from outside.
     pub triangles: Blob,
 }
 
 impl DenseCloud {
-    /// Number of points.
+    /// Returns the number of points.
     pub fn len(&self) -> usize {
         self.points.len() / NUM_BYTES
     }
@@ -37,7 +37,7 @@ impl DenseCloud {
         self.points.is_empty()
     }
 
-    /// The point of an index; the vertices of the surface follow the points.
+    /// Returns the point with this index; the vertices of the surface follow the points.
     pub fn point(&self, index: u32) -> Option<CloudVertex> {
         let (points, _) = self.points.as_chunks();
         let (vertices, _) = self.vertices.as_chunks();
@@ -49,7 +49,7 @@ impl DenseCloud {
         Some(CloudVertex::from_bytes(bytes))
     }
 
-    /// Every n-th point.
+    /// Returns every n-th point.
     pub fn points(&self, every: usize) -> impl Iterator<Item = CloudVertex> {
         let (points, _) = self.points.as_chunks::<NUM_BYTES>();
         points
@@ -58,13 +58,13 @@ impl DenseCloud {
             .map(CloudVertex::from_bytes)
     }
 
-    /// The vertices of the surface.
+    /// Returns the vertices of the surface.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = CloudVertex> {
         let (vertices, _) = self.vertices.as_chunks::<NUM_BYTES>();
         vertices.iter().map(CloudVertex::from_bytes)
     }
 
-    /// The vertices of each triangle, by index.
+    /// Returns the vertices of each triangle, by index.
     pub fn triangles(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
         let (triangles, _) = self.triangles.as_chunks::<12>();
         triangles.iter().map(|bytes| {
@@ -73,14 +73,14 @@ impl DenseCloud {
         })
     }
 
-    /// Whether no point, vertex or triangle is cut off.
+    /// Whether the bytes contain no incomplete point, vertex or triangle.
     pub fn is_whole(&self) -> bool {
         self.points.len().is_multiple_of(NUM_BYTES)
             && self.vertices.len().is_multiple_of(NUM_BYTES)
             && self.triangles.len().is_multiple_of(12)
     }
 
-    /// Whether an untrusted cloud has only finite numbers, and triangles of its own vertices.
+    /// Whether an untrusted cloud has only finite numbers, and valid indices in its triangles.
     pub(super) fn is_valid(&self) -> bool {
         let num_vertices = self.vertices().len();
         self.is_whole()

@@ -1,4 +1,4 @@
-//! Depth of every pixel of a pair whose cameras are known.
+//! Dense depth of a pair whose cameras are known.
 
 use super::camera_found::CameraFound;
 use super::dense::Dense;
@@ -9,17 +9,17 @@ use crate::project::{DepthOptions, InputPhoto, Key, PhotoId, Project, Step};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
-/// Finds the depth of every pixel of a pair.
+/// Estimates the dense depth of a pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FindDepth {
-    /// The pair.
+    /// Photographs of the pair.
     pub photographs: [Photograph; 2],
     /// Their cameras.
     pub cameras: [CameraFound; 2],
     /// The lens of both.
     #[serde(rename = "distortion", with = "super::radial_lens")]
     pub lens: Lens,
-    /// Points that both show.
+    /// Points visible in both.
     pub points: Vec<[f64; 3]>,
     /// Dense depth settings.
     pub options: DepthOptions,
@@ -33,19 +33,19 @@ impl Task for FindDepth {
     }
 }
 
-/// The depth of a pair, the first before the second in the list.
+/// Query for the depth of a pair, in the order of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DepthOf(pub PhotoId, pub PhotoId);
 
 impl DepthOf {
-    /// Whether it is part of the cloud, or looked at in its step.
+    /// Whether it is part of the cloud, or selected in the step "Depth".
     pub(crate) fn is_asked(self, project: &Project) -> bool {
         let pair = (self.0, self.1);
         project.document.is_dense(pair)
             || (project.view.step == Step::Depth && project.view.pair == pair)
     }
 
-    /// Cameras of both photographs in the component that is looked at.
+    /// Returns the cameras of both photographs in the current component.
     fn cameras(self, project: &Project) -> Option<[CameraFound; 2]> {
         let cameras = &project.component()?.cameras;
         let camera = |id| *cameras.get(project.place(id)?)?;
@@ -57,7 +57,7 @@ impl Query for DepthOf {
     type Task = FindDepth;
     const STEP: Step = Step::Depth;
 
-    /// The pairs whose depth is part of the cloud, and the one that is looked at.
+    /// Returns the pairs whose depth is part of the cloud, and the selected one.
     fn all(project: &Project) -> Vec<Self> {
         let pairs = [&project.view.pair]
             .into_iter()
@@ -68,7 +68,7 @@ impl Query for DepthOf {
             .collect()
     }
 
-    /// Known if both photographs have a camera in the component that is looked at.
+    /// Returns a key if both photographs have a camera in the current component.
     fn key(self, project: &Project) -> Option<Key> {
         self.cameras(project)?;
         let first = PhotographOf(self.0).key(project)?;
@@ -119,7 +119,7 @@ impl Query for DepthOf {
 }
 
 impl Project {
-    /// The pairs whose depth is part of the cloud and is there, with its key.
+    /// Returns the pairs whose depth is available and part of the cloud, with its key.
     pub fn dense_pairs(&self) -> Vec<(Key, &InputPhoto, &InputPhoto, &Dense)> {
         let pairs = self.document.dense.iter();
         let ready = |pair: &(PhotoId, PhotoId)| {

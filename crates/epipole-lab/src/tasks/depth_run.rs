@@ -1,4 +1,4 @@
-//! Code that finds the depth of a pair: rectified, matched along the rows.
+//! Code that estimates the depth of a pair: rectification, then matching along the rows.
 
 use super::camera_found::CameraFound;
 use super::convert::sentence;
@@ -18,8 +18,8 @@ use image::{GrayImage, RgbImage};
 use nalgebra::{Point3, UnitQuaternion};
 
 impl Run for FindDepth {
-    /// Rectifies and matches. Photographs of two sizes are resized to one in which a pixel of
-    /// either spans as large an angle.
+    /// Rectifies and matches. Photographs of different sizes are resized to one size in which
+    /// pixels of both span equal angles.
     fn run(self, monitor: Monitor<'_>) -> Result<Dense, String> {
         let options = &self.options;
         report(monitor, 0.02, "rectifying")?;
@@ -35,8 +35,7 @@ impl Run for FindDepth {
                 .each_ref()
                 .map(|camera| camera.camera.intrinsics.fu_px()),
         );
-        // Disparities are positive where the second photograph is the one from the right, or from
-        // below.
+        // Disparities are positive if the second camera is to the right, or below.
         let mut order = [0, 1];
         let mut whole = rectify(&self, &cameras, order, size)?;
         if stands_before(&whole, &cameras) {
@@ -107,22 +106,22 @@ impl Run for FindDepth {
     }
 }
 
-/// The disparity of what is infinitely far, pixels.
+/// Returns the disparity of points at infinity, pixels.
 fn at_infinity(rig: &Rectification) -> f64 {
     let axis = usize::from(rig.is_vertical);
     let center = |index: usize| rig.intrinsics[index].principal_point()[axis];
     center(0) - center(1)
 }
 
-/// Number of points that may be wrong at the far end. Few points of a background lie there, and a
-/// range without it costs more than a range with some empty disparities.
+/// Number of points that may be wrong at the far end. Only few points of a background are there,
+/// and a range without them is worse than one with some empty disparities.
 const WRONG_AND_FAR: usize = 3;
-/// Room beyond the farthest point, pixels.
+/// Margin beyond the farthest point, pixels.
 const BEYOND_FARTHEST: f64 = 2.0;
 
-/// The range that points propose: that of nearly all of them, and of the background.
+/// Returns the range given by the sparse points: that of nearly all of them, and of the background.
 ///
-/// * `places`: points that both photographs show, in the frame of the first one's camera
+/// * `places`: points visible in both photographs, in the frame of the first one's camera
 fn proposed(rig: &Rectification, places: &[Point3<f64>]) -> Option<[i32; 2]> {
     let [low, high] = rig.disparity_range(places).ok()?;
     let seen = places.iter().filter_map(|place| rig.disparity_of(place));
@@ -133,8 +132,8 @@ fn proposed(rig: &Rectification, places: &[Point3<f64>]) -> Option<[i32; 2]> {
     Some([low.min(first.floor() as i32), high])
 }
 
-/// Disparities without those at the ends of the range: a surface beyond the range is matched there.
-/// Nothing is beyond infinity.
+/// Removes disparities at the ends of the range, to which a surface beyond it is matched. The
+/// disparity of infinity is no such end, as nothing is beyond it.
 fn unclamped(
     disparity: &DisparityImage,
     (first, count): (i32, u32),
@@ -153,11 +152,11 @@ fn unclamped(
         .map_err(sentence)
 }
 
-/// Disparities this close to an end of the range, pixels, may lie beyond it: refinement below a
-/// pixel moves them by half a pixel at most.
+/// Distance to an end of the range below which disparities are removed, pixels: subpixel refinement
+/// moves them by half a pixel at most.
 const END_PX: f64 = 0.5;
 
-/// * `width`, `height`: what both photographs are resized to, pixels
+/// * `width`, `height`: size that both photographs are resized to, pixels
 fn rectify(
     pair: &FindDepth,
     cameras: &[PosedCamera; 2],
@@ -173,7 +172,7 @@ fn rectify(
         ];
         let k = cameras[index].camera.intrinsics;
         let center = k.principal_point();
-        // Pixel centers are whole numbers, so a photograph begins half a pixel before the first.
+        // Pixel centers are integers, so a photograph begins half a pixel before the first.
         let moved = |at: f64, share: f64| (at + 0.5) * share - 0.5;
         Ok(Camera {
             width,
@@ -190,8 +189,8 @@ fn rectify(
     };
     let cam2_from_cam1: RigidTransform =
         cameras[second].cam_from_world * cameras[first].cam_from_world.inverse();
-    // All of both photographs: a camera that rolled a little would leave only a small part without
-    // a border.
+    // All of both photographs: without a border, a camera that rolled a little would leave only a
+    // small part.
     let options = RectifyOptions::default().with_alpha(1.0);
     rectify_calibrated(
         &[camera(first)?, camera(second)?],
@@ -201,7 +200,7 @@ fn rectify(
     .map_err(sentence)
 }
 
-/// The photograph in another size, whose sides need not keep their proportion.
+/// Resizes a photograph; its aspect ratio may change.
 fn resized(image: RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     match image.dimensions() == (width, height) {
         true => image,
@@ -209,7 +208,7 @@ fn resized(image: RgbImage, [width, height]: [u32; 2]) -> RgbImage {
     }
 }
 
-/// The first rectified camera.
+/// Returns the first rectified camera.
 fn rectified_camera(rig: &Rectification, first: &PosedCamera) -> CameraFound {
     let k = rig.intrinsics[0];
     let center = k.principal_point();
@@ -223,7 +222,7 @@ fn rectified_camera(rig: &Rectification, first: &PosedCamera) -> CameraFound {
     }
 }
 
-/// Whether the second camera stands to the left of the first, or above it.
+/// Whether the second camera is to the left of the first, or above it.
 fn stands_before(rig: &Rectification, cameras: &[PosedCamera; 2]) -> bool {
     let second: Point3<f64> = cameras[1].cam_from_world.inverse() * Point3::origin();
     let in_first = cameras[0].cam_from_world * second;
@@ -283,14 +282,14 @@ mod tests {
         let aside = RigidTransform::translation(-0.1, 0.0, 0.0);
         let rig = rectify_calibrated(&[camera, camera], &aside, &RectifyOptions::default())
             .expect("two cameras side by side");
-        // A thing at 1 m, 50 px, and a wall at 10 m, 5 px.
+        // An object at 1 m, 50 px, and a wall at 10 m, 5 px.
         let mut places: Vec<Point3<f64>> = (0..1000)
             .map(|n| Point3::new(0.0003 * f64::from(n), 0.0, 1.0))
             .collect();
         places.extend((0..8).map(|n| Point3::new(0.1 * f64::from(n), 0.5, 10.0)));
         let [low, high] = proposed(&rig, &places).expect("more than eight points");
         assert!((1..=4).contains(&low) && high > 50, "{low} {high}");
-        // Three far ones may be wrong.
+        // Three far points may be wrong.
         places.truncate(1003);
         let [low, _] = proposed(&rig, &places).expect("more than eight points");
         assert!(low > 40, "{low}");

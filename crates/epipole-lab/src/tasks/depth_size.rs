@@ -1,14 +1,15 @@
-//! Downscaling of a pair for its range of disparities.
+//! Downscaling of a pair to limit its cells.
 
-/// Cells, pixels times disparities, beyond which a pair is halved. The core admits twice as many on
-/// 32-bit systems; a cell takes two bytes, and the photographs need memory, too.
+/// Maximum number of cells, pixels times disparities; larger pairs are halved. The core admits
+/// twice as many on 32-bit systems, but a cell takes two bytes, and the photographs need memory as
+/// well.
 const MAX_CELLS: u64 = 1 << 27;
-/// Maximum number of disparities of the core.
+/// Maximum number of disparities in the core.
 const MAX_DISPARITIES: i64 = 4096;
 
-/// The size that both photographs of a pair are resized to. A pixel then spans as much as one of
-/// the coarser photograph, and no side becomes shorter; for different shapes one side of each is
-/// stretched, which does no harm, as the rectified images are resampled along rays.
+/// Returns the size that both photographs of a pair are resized to: a pixel spans the same angle as
+/// one of the coarser photograph, and no side is downscaled further. If the shapes differ, a side
+/// of each is stretched, which is harmless, as rectification resamples along rays.
 pub(super) fn common_size(sizes: [[u32; 2]; 2], focals_px: [f64; 2]) -> [u32; 2] {
     if sizes[0] == sizes[1] {
         return sizes[0];
@@ -21,7 +22,7 @@ pub(super) fn common_size(sizes: [[u32; 2]; 2], focals_px: [f64; 2]) -> [u32; 2]
     [0, 1].map(|axis| side(axis, 0).max(side(axis, 1)))
 }
 
-/// Factor by which width and height are divided: 1, 2, 4 and so on.
+/// Returns the factor by which width and height are divided: 1, 2, 4 and so on.
 pub(super) fn reduced_factor(size: [u32; 2], range_px: [i32; 2]) -> u32 {
     let mut factor = 1;
     loop {
@@ -35,14 +36,14 @@ pub(super) fn reduced_factor(size: [u32; 2], range_px: [i32; 2]) -> u32 {
     }
 }
 
-/// The smallest disparity and the number of disparities, in images downscaled by `factor`.
+/// Returns the smallest disparity and the number of disparities, in images downscaled by `factor`.
 pub(super) fn span(range_px: [i32; 2], factor: u32) -> (i32, u32) {
     let [low, high] = range_px.map(i64::from);
     let factor = i64::from(factor.max(1));
     let first = low.div_euclid(factor);
     let last = (high + factor - 1).div_euclid(factor);
     let count = (last - first + 1).clamp(1, MAX_DISPARITIES);
-    // Division keeps the values in the range of an i32.
+    // Division keeps the values within an i32.
     (first as i32, count as u32)
 }
 
@@ -62,7 +63,7 @@ mod tests {
     #[test]
     fn two_sizes_meet_where_pixels_span_the_same() {
         assert_eq!(common_size([[480, 360]; 2], [500.0, 900.0]), [480, 360]);
-        // One twice as fine as the other, and one in portrait format.
+        // The second has half the resolution and portrait format.
         let fine = common_size([[960, 720], [480, 360]], [1000.0, 500.0]);
         assert_eq!(fine, [480, 360]);
         let upright = common_size([[480, 360], [360, 480]], [500.0, 500.0]);

@@ -17,9 +17,9 @@ pub struct Feature {
     pub v: f64,
     /// Its scale, pixels.
     pub scale_px: f32,
-    /// Its direction, v down.
+    /// Its direction, clockwise from the right, as v points down.
     pub angle_rad: f32,
-    /// The color of its place.
+    /// Color at its position.
     pub color: [u8; 3],
 }
 
@@ -33,7 +33,7 @@ pub struct Features {
 }
 
 impl Features {
-    /// Whether sizes and numbers agree, with descriptors or without.
+    /// Whether sizes and counts agree, with or without descriptors.
     fn is_valid(&self) -> bool {
         let dimension = self.described.dimension as usize;
         let fits = self.list.len().checked_mul(dimension) == Some(self.described.values.len());
@@ -54,9 +54,9 @@ impl Features {
 /// Descriptors, one after the other.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Described {
-    /// Numbers in a descriptor.
+    /// Number of elements of a descriptor.
     pub dimension: u32,
-    /// All of them.
+    /// Elements of all descriptors.
     pub values: Blob,
 }
 
@@ -73,7 +73,7 @@ impl Task for FindFeatures {
     type Output = Features;
 }
 
-/// The features of the photograph of this number.
+/// Query for the features of the photograph with this number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FeaturesOf(pub PhotoId);
 
@@ -135,7 +135,7 @@ impl Query for FeaturesOf {
 }
 
 impl Project {
-    /// Number of features of a photograph, if they are known.
+    /// Returns the number of features of a photograph, if known.
     pub(super) fn num_features(&self, id: PhotoId) -> Option<usize> {
         Some(self.get(FeaturesOf(id))?.list.len())
     }
@@ -148,13 +148,13 @@ impl Project {
             && self.failure(FeaturesOf(photo.id)).is_none()
     }
 
-    /// The photographs that take part, in order.
+    /// Returns the photographs that take part, in order.
     pub fn taking_part(&self) -> Vec<&InputPhoto> {
         let photos = self.document.photos.iter();
         photos.filter(|photo| self.takes_part(photo)).collect()
     }
 
-    /// Index of a photograph among those that take part.
+    /// Returns the index of a photograph among those that take part.
     pub fn place(&self, id: PhotoId) -> Option<usize> {
         self.taking_part().iter().position(|photo| photo.id == id)
     }

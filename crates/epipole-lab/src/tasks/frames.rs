@@ -1,4 +1,4 @@
-//! The sharpest of the frames of one part of a video.
+//! Choice of the sharpest frame in a part of a video.
 
 use super::task::Task;
 #[cfg(feature = "files")]
@@ -13,13 +13,13 @@ pub struct ChooseFrame {
     pub name: String,
     /// Index of the part.
     pub part: u32,
-    /// Some frames of it, as files of photographs.
+    /// Some frames of it, as image files.
     pub frames: Vec<Blob>,
 }
 
 impl Task for ChooseFrame {
-    /// The frame as a file, with a name that contains the number of the part; empty if no frame can
-    /// be read.
+    /// The frame as a file whose name contains the number of the part; empty if no frame is
+    /// readable.
     type Output = Vec<(String, Blob)>;
 }
 
@@ -42,7 +42,7 @@ impl Run for ChooseFrame {
                 continue;
             };
             let value = sharpness(&photo_to_gray(&decoded.image));
-            // The first of equals.
+            // Of equal values, the first wins.
             if best.as_ref().is_none_or(|(most, _)| value > *most) {
                 best = Some((value, frame));
             }
@@ -74,7 +74,7 @@ mod tests {
             .image
     }
 
-    /// As a camera that moves to the side by so many pixels while it is open.
+    /// Applies the motion blur of a camera that moves sideways by this many pixels during exposure.
     fn smeared(image: &RgbImage, by: u32) -> RgbImage {
         RgbImage::from_fn(image.width(), image.height(), |u, v| {
             let mut sum = [0_u32; 3];

@@ -1,4 +1,4 @@
-//! Code that finds points where the cameras are known, as `epipole sfm --poses` does.
+//! Code that triangulates points for known cameras, as `epipole sfm --poses` does.
 
 use super::convert::sentence;
 use super::reconstruction::{Component, Reconstructed, UnregisteredReason};
@@ -9,10 +9,9 @@ use epipole::progress::Status;
 use epipole::sfm::{SfmInput, SfmOptions, triangulate_tracks};
 use nalgebra::{Quaternion, UnitQuaternion};
 
-/// Points from known poses.
+/// Triangulates points for known poses.
 ///
-/// # Errors
-/// A message for poses that are not those of the photographs, and for cancellation.
+/// # Errors A message, if the poses do not fit the photographs, or for cancellation.
 pub(super) fn triangulate(
     input: &SfmInput,
     poses: &[Option<Pose>],

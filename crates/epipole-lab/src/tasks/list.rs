@@ -1,4 +1,4 @@
-//! The list of all tasks: what crosses to a worker, and what the project asks for.
+//! List of all tasks, with the request for a worker and the query of the project.
 
 use super::task::{Destination, Query, Task};
 use super::{
@@ -11,7 +11,7 @@ use crate::project::{Key, Project, Step, to_bytes};
 use serde::{Deserialize, Serialize};
 use std::any::Any;
 
-/// Code module that runs a task: the browser loads one without the other.
+/// Code module that runs a task; the browser loads each one separately.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Branch {
     /// Vision on prepared photographs.
@@ -48,7 +48,7 @@ macro_rules! tasks {
         })*
 
         impl Request {
-            /// Code module that it needs.
+            /// Returns the code module that it needs.
             pub fn branch(&self) -> Branch {
                 match self {
                     $(Self::$cached(_) => Branch::$branch,)*
@@ -59,8 +59,7 @@ macro_rules! tasks {
 
         /// Runs the task of a request and returns its output as bytes.
         ///
-        /// # Errors
-        /// A message for people; also if the code of the task is in the other module of the Lab.
+        /// # Errors A message for the reader, also if the task belongs to the other code module.
         #[cfg(any(feature = "vision", feature = "files"))]
         pub fn compute(request: &[u8], monitor: super::Monitor<'_>) -> Result<Vec<u8>, String> {
             use super::task::Run;
@@ -81,7 +80,7 @@ macro_rules! tasks {
         }
 
         impl AnyQuery {
-            /// All queries of the current document.
+            /// Returns all queries of the current document.
             pub(crate) fn all(project: &Project) -> Vec<Self> {
                 let mut all = Vec::new();
                 $(all.extend($query::all(project).into_iter().map(Self::$cached));)*
@@ -123,12 +122,12 @@ macro_rules! tasks {
                 match self { $(Self::$cached(query) => query.label(project),)* }
             }
 
-            /// Reads an output.
+            /// Decodes an output.
             pub(crate) fn read(self, bytes: &[u8]) -> Result<Box<dyn Any>, String> {
                 match self { $(Self::$cached(_) => Ok(Box::new($input::read(bytes)?)),)* }
             }
 
-            /// Reads an output from a file, if it fits.
+            /// Decodes an output from a file, if it is valid.
             pub(crate) fn import(self, project: &Project, bytes: &[u8]) -> Option<Box<dyn Any>> {
                 match self {
                     $(Self::$cached(query) => {
@@ -138,7 +137,7 @@ macro_rules! tasks {
                 }
             }
 
-            /// Its output as bytes for a file.
+            /// Encodes its output for a file.
             pub(crate) fn stored(self, project: &Project, destination: Destination) -> Option<Vec<u8>> {
                 match self {
                     $(Self::$cached(query) => {
@@ -175,7 +174,7 @@ tasks! {
 }
 
 impl Request {
-    /// For [`Request::from_bytes`].
+    /// Inverse of [`Request::from_bytes`].
     pub fn to_bytes(&self) -> Vec<u8> {
         to_bytes(self)
     }

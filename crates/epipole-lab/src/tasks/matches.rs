@@ -14,16 +14,16 @@ pub struct Match {
     pub first: u32,
     /// Index in the second photograph.
     pub second: u32,
-    /// Distance of the descriptors over that of the second nearest.
+    /// Ratio of the descriptor distances to the nearest and the second nearest.
     pub ratio: f32,
 }
 
 /// Matches the features of two photographs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MatchFeatures {
-    /// Descriptors of the first.
+    /// Descriptors of the first photograph.
     pub first: Described,
-    /// Descriptors of the second.
+    /// Descriptors of the second photograph.
     pub second: Described,
     /// Matching settings.
     pub options: MatchOptions,
@@ -33,7 +33,7 @@ impl Task for MatchFeatures {
     type Output = Vec<Match>;
 }
 
-/// The matches of a pair, the first before the second in the list.
+/// Query for the matches of a pair, in the order of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MatchesOf(pub PhotoId, pub PhotoId);
 
@@ -96,7 +96,7 @@ impl Query for MatchesOf {
 }
 
 impl MatchesOf {
-    /// `u1, v1, u2, v2` of each match.
+    /// Returns `u1, v1, u2, v2` for each match.
     pub fn places(self, project: &Project) -> Option<Vec<[f64; 4]>> {
         let matches = project.get(self)?;
         let first = project.get(FeaturesOf(self.0))?;

@@ -1,8 +1,8 @@
-//! Long computations, from bytes to bytes: a native thread and a worker in the browser run the
-//! same.
+//! Long computations, from bytes to bytes, the same in a native thread and in a worker of the
+//! browser.
 //!
-//! Each has a file with its inputs (a [`Task`]), its output, its code and, if the project keeps the
-//! output, the [`Query`] that asks for it. `list.rs` has a line for each.
+//! Each has a file with its inputs (a [`Task`]), its output, its code and, if the project caches
+//! the output, the [`Query`] for it. `list.rs` has a line for each.
 
 mod all_views;
 #[cfg(feature = "vision")]

@@ -1,5 +1,4 @@
-//! Photographs: decoded or rendered, upright, without the distortion of a lens that is known,
-//! reduced.
+//! Photographs: decoded or rendered, turned upright, undistorted, downscaled.
 
 use super::are_finite;
 use super::task::{Destination, Query, Task};
@@ -9,7 +8,7 @@ use super::thumbnail::Thumbnail;
 use crate::project::{Blob, InputPhoto, Key, LensCamera, PhotoId, Project, Source, Step};
 use serde::{Deserialize, Serialize};
 
-/// A photograph, upright and of a size to work with.
+/// Photograph, upright and at working size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Photograph {
     /// Width, pixels.
@@ -19,16 +18,16 @@ pub struct Photograph {
     /// Red, green, blue, row by row. Empty if only size and lens are known so far, or if the pixels
     /// were dropped and can be read again.
     pub rgb: Blob,
-    /// The same, small; nothing where pixels are to come, and of a board, which is in no list.
+    /// Thumbnail; empty until pixels arrive, and for boards, which are in no list.
     pub small: Thumbnail,
-    /// Focal length from the file, in pixels of this size.
+    /// Focal length from the file, pixels of this size.
     pub focal_px: Option<f64>,
-    /// Focal lengths and principal point, in pixels of this size, if the photograph was redrawn as
-    /// the calibrated camera would show it without its distortion.
+    /// Focal lengths and principal point, pixels of this size, if the photograph was undistorted
+    /// with the calibrated camera.
     pub k: Option<[f64; 4]>,
-    /// Width and height before it was reduced, upright.
+    /// Upright width and height before downscaling.
     pub full_size: (u32, u32),
-    /// Width and height in the sensor's orientation, before it was turned upright.
+    /// Width and height in the sensor's orientation.
     pub sensor_size: (u32, u32),
     /// Number of clockwise quarter turns that made it upright; `None` if it was mirrored.
     pub quarters: Option<u8>,
@@ -37,17 +36,17 @@ pub struct Photograph {
 }
 
 impl Photograph {
-    /// Whether its pixels are there.
+    /// Whether its pixels are in memory.
     pub fn has_pixels(&self) -> bool {
         !self.rgb.is_empty()
     }
 
-    /// Whether its pixels are or were in memory: it can be shown, at least as a thumbnail.
+    /// Whether its pixels are or were in memory, so that at least a thumbnail can be shown.
     pub fn was_read(&self) -> bool {
         self.has_pixels() || !self.small.rgb.is_empty()
     }
 
-    /// Whether sizes and numbers agree, with its pixels or without.
+    /// Whether sizes and counts agree, with or without pixels.
     fn is_valid(&self) -> bool {
         let num_bytes = u64::from(self.width) * u64::from(self.height) * 3;
         let sizes = [self.full_size, self.sensor_size];
@@ -66,23 +65,22 @@ impl Photograph {
                 .is_none_or(|k| are_finite(&k) && k[0] > 0.0 && k[1] > 0.0)
     }
 
-    /// Its pixels as an image.
+    /// Returns its pixels as an image.
     ///
-    /// # Errors
-    /// A message, if they do not fit its size.
+    /// # Errors A message, if their number does not fit its size.
     #[cfg(any(feature = "vision", feature = "files"))]
     pub(super) fn to_image(&self) -> Result<image::RgbImage, String> {
         image::RgbImage::from_raw(self.width, self.height, self.rgb.0.to_vec())
             .ok_or_else(|| "the photograph did not arrive whole".to_owned())
     }
 
-    /// Size of its pixels in bytes, whether loaded or not.
+    /// Returns the size of its pixels in bytes, whether in memory or not.
     pub fn num_bytes(&self) -> usize {
         3 * self.width as usize * self.height as usize
     }
 }
 
-/// The size and the intrinsics of a photograph.
+/// Size and intrinsics of a photograph.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Calibrated {
     /// Width, pixels.
@@ -94,7 +92,7 @@ pub struct Calibrated {
 }
 
 impl Calibrated {
-    /// Square pixels, and the principal point in the middle.
+    /// Creates intrinsics with square pixels and the principal point in the middle.
     pub fn centered(width: u32, height: u32, focal_px: f64) -> Self {
         let middle = |side: u32| (f64::from(side) - 1.0) / 2.0;
         Self {
@@ -104,7 +102,7 @@ impl Calibrated {
         }
     }
 
-    /// Intrinsics.
+    /// Converts the intrinsics.
     ///
     /// # Errors
     /// A message for invalid numbers.
@@ -114,19 +112,19 @@ impl Calibrated {
         epipole::camera::Intrinsics::new(fu, fv, cu, cv).map_err(|error| error.to_string())
     }
 
-    /// The focal length of a camera that is [centered](Self::centered).
+    /// Returns the focal length if it is [centered](Self::centered).
     pub fn centered_focal_px(&self) -> Option<f64> {
         let centered = Self::centered(self.width, self.height, self.k[0]);
         (*self == centered).then_some(self.k[0])
     }
 }
 
-/// Decodes or renders a photograph, upright, and reduces it.
+/// Decodes or renders a photograph, turns it upright, and downscales it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReadPhotograph {
     /// File or sample.
     pub source: Source,
-    /// The largest number of pixels.
+    /// Maximum number of pixels.
     pub max_pixels: u32,
     /// Camera whose distortion is removed if it has the photograph's size.
     pub camera: Option<LensCamera>,
@@ -136,7 +134,7 @@ impl Task for ReadPhotograph {
     type Output = Photograph;
 }
 
-/// The photograph of this number.
+/// Query for the photograph with this number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PhotographOf(pub PhotoId);
 
@@ -182,7 +180,7 @@ impl Query for PhotographOf {
         project.get(self).is_some_and(Photograph::was_read) || project.failure(self).is_some()
     }
 
-    /// The sample comes with sizes and lenses; its pixels are quickly rendered.
+    /// The sample is stored without pixels, which are quickly rendered.
     fn stored(output: &Photograph, destination: Destination) -> Option<Photograph> {
         (destination == Destination::Sample).then(|| Photograph {
             rgb: Blob::default(),
@@ -201,18 +199,18 @@ impl Query for PhotographOf {
 /// Source of a focal length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FocalOrigin {
-    /// The reader typed it.
+    /// Typed by the reader.
     Typed,
-    /// The calibrated camera, or that of the opened model, has it.
+    /// The calibrated camera, or that of the opened model.
     Calibration,
     /// EXIF data of the file.
     File,
-    /// 1.2 times the longer side.
+    /// A guess, 1.2 times the longer side.
     Guessed,
 }
 
 impl Project {
-    /// The largest number of pixels of a photograph.
+    /// Maximum number of pixels of a photograph.
     pub(crate) fn max_pixels(&self) -> u32 {
         (self.document.settings.max_megapixels * 1e6).round() as u32
     }
@@ -223,26 +221,26 @@ impl Project {
         Key::of(&("photograph", photo.content.0, self.max_pixels(), camera))
     }
 
-    /// A photograph with its pixels, if they are in memory.
+    /// Returns a photograph with its pixels, if they are in memory.
     pub fn photograph(&self, photo: &InputPhoto) -> Option<&Photograph> {
         self.get(PhotographOf(photo.id))
             .filter(|found| found.has_pixels())
     }
 
-    /// A photograph that can be shown, at least as a thumbnail: its pixels may have to be read
-    /// again.
+    /// Returns a photograph that can be shown, at least as a thumbnail: its pixels may have to be
+    /// read again.
     pub fn shown(&self, photo: &InputPhoto) -> Option<&Photograph> {
         self.get(PhotographOf(photo.id))
             .filter(|found| found.was_read())
     }
 
-    /// Size and intrinsics of a photograph, once they are known.
+    /// Returns size and intrinsics of a photograph, once they are known.
     pub fn camera(&self, photo: &InputPhoto) -> Option<Calibrated> {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).0)
     }
 
-    /// The photographs that one camera may have taken with a photograph, and itself: their sensors
-    /// have as many pixels.
+    /// Returns the photographs that may be by the same camera, including the given one: their
+    /// sensors have the same size.
     pub fn alike(&self, photo: &InputPhoto) -> Vec<PhotoId> {
         let size = |photo: &InputPhoto| Some(self.get(PhotographOf(photo.id))?.sensor_size);
         let own = size(photo);
@@ -253,12 +251,13 @@ impl Project {
             .collect()
     }
 
-    /// Source of its focal length.
+    /// Returns the source of its focal length.
     pub fn focal_origin(&self, photo: &InputPhoto) -> Option<FocalOrigin> {
         Some(camera(photo, self.get(PhotographOf(photo.id))?).1)
     }
 
-    /// Focal length of a photograph times a factor, in pixels of its file. 0 until it is known.
+    /// Returns the focal length of a photograph times a factor, in pixels of its file; 0 until it
+    /// is known.
     pub(crate) fn focal_px(&self, photo: &InputPhoto, factor: f64) -> f64 {
         let known = self.get(PhotographOf(photo.id)).map(|pixels| {
             let reduced = f64::from(pixels.width) / f64::from(pixels.full_size.0.max(1));
@@ -267,7 +266,7 @@ impl Project {
         known.unwrap_or(0.0)
     }
 
-    /// Whether the current step shows the pixels of a photograph in full.
+    /// Whether the current step shows a photograph in full.
     pub(crate) fn shows_pixels(&self, id: PhotoId) -> bool {
         let (a, b) = self.view.pair;
         match self.view.step {
@@ -278,7 +277,7 @@ impl Project {
     }
 }
 
-/// The intrinsics of a photograph in its own pixels, and where its focal length comes from.
+/// Returns the intrinsics of a photograph in its own pixels, and the source of its focal length.
 fn camera(photo: &InputPhoto, pixels: &Photograph) -> (Calibrated, FocalOrigin) {
     let (width, height) = (pixels.width, pixels.height);
     let factor = f64::from(width) / f64::from(pixels.full_size.0.max(1));
@@ -332,8 +331,8 @@ fn rendered(image: image::RgbImage, focal_px: Option<f64>) -> Photograph {
 
 /// Decodes a file just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
 ///
-/// # Errors
-/// A message for an unreadable file, a field of view that no flat image can show, or cancellation.
+/// # Errors A message for an unreadable file, a field of view too wide for a flat image, or
+/// cancellation.
 #[cfg(feature = "files")]
 fn file(
     bytes: &[u8],

@@ -1,4 +1,4 @@
-//! A picture of the screen as a PNG file.
+//! Writing of a rendered view as a PNG file.
 
 use super::task::Task;
 #[cfg(feature = "files")]
@@ -6,7 +6,7 @@ use super::task::{Monitor, Run};
 use crate::project::Blob;
 use serde::{Deserialize, Serialize};
 
-/// Writes a picture of the screen.
+/// Writes a rendered view as a PNG file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WritePicture {
     /// Width, pixels.

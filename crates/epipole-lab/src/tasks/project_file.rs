@@ -1,4 +1,4 @@
-//! The zip file of a project: its photographs as they were given, settings, and results.
+//! Zip file of a project: original photographs, settings and results.
 
 use super::photograph::Photograph;
 use super::task::Task;
@@ -10,24 +10,25 @@ use serde::{Deserialize, Serialize};
 /// A photograph for an archive.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Packed {
-    /// Its name, which no other one has.
+    /// Its unique name.
     pub name: String,
-    /// As it was given.
+    /// Original file or sample.
     pub source: Source,
-    /// As it was used; not needed for a project.
+    /// The photograph as it was reconstructed; not needed for a project.
     pub used: Option<Photograph>,
-    /// Camera whose distortion was removed, if it has its size; not needed for a project.
+    /// Camera whose distortion was removed if it has the photograph's size; not needed for a
+    /// project.
     pub camera: Option<LensCamera>,
 }
 
-/// Writes photographs, as they were given, and settings to a zip file.
+/// Writes original photographs and settings to a zip file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SaveProject {
     /// The photographs.
     pub photographs: Vec<Packed>,
-    /// The rest of the project.
+    /// The project without its photographs.
     pub project: Saved,
-    /// Results that need not be computed once more.
+    /// Cached results.
     pub computed: Computed,
 }
 
@@ -43,14 +44,14 @@ pub struct OpenProject {
     pub archive: Blob,
 }
 
-/// A project from its zip file.
+/// A project read from its zip file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Opened {
     /// The project without its photographs.
     pub project: Saved,
     /// Names and files of the photographs.
     pub files: Vec<(String, Blob)>,
-    /// Results, unless another version of the Lab computed them.
+    /// Results; empty if another version of the Lab computed them.
     pub computed: Computed,
 }
 
@@ -58,10 +59,10 @@ impl Task for OpenProject {
     type Output = Opened;
 }
 
-/// The settings in the archive of a project.
+/// Settings in the zip file of a project.
 #[cfg(feature = "files")]
 const PROJECT: &str = "project.json";
-/// The folder of its photographs.
+/// Folder of the photographs.
 #[cfg(feature = "files")]
 const PHOTOGRAPHS: &str = "photographs/";
 /// Folder of the results, with a subfolder named by the build that computed them.
@@ -82,7 +83,7 @@ impl Run for SaveProject {
             serde_json::to_string_pretty(&self.project).map_err(|error| error.to_string())?;
         archive.add(PROJECT, text.as_bytes())?;
         for photograph in &self.photographs {
-            // Samples are rendered again.
+            // Samples are rendered again when opened.
             if let Source::File(bytes) = &photograph.source {
                 archive.add(&format!("{PHOTOGRAPHS}{}", photograph.name), bytes)?;
             }
@@ -121,7 +122,7 @@ impl Run for OpenProject {
                 continue;
             }
             let mut content = Vec::new();
-            // A damaged entry may be larger than its header says.
+            // A damaged entry may be larger than its header claims.
             entry
                 .take(left + 1)
                 .read_to_end(&mut content)
@@ -147,7 +148,7 @@ impl Run for OpenProject {
     }
 }
 
-/// The settings, if they are of a version that is known here.
+/// Parses the settings, if their version is supported.
 #[cfg(feature = "files")]
 fn read(text: &[u8]) -> Result<Saved, String> {
     #[derive(serde::Deserialize)]
@@ -205,7 +206,7 @@ mod tests {
         let bytes = save(&photographs, &project(), &computed).unwrap();
         let opened = open(&bytes).unwrap();
         assert_eq!(opened.computed, computed);
-        // Results of another build are not loaded.
+        // Results of another build are ignored.
         let older = Computed {
             by: "older".to_owned(),
             ..computed

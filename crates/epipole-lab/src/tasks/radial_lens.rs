@@ -1,4 +1,4 @@
-//! The lens of a reconstruction in files and messages: its two radial terms.
+//! Serialization of a reconstruction's lens as two radial terms.
 
 use epipole::camera::{Distortion, Lens};
 use serde::ser::Error;
@@ -14,8 +14,7 @@ fn radial([k1, k2]: [f64; 2]) -> Lens {
 
 /// Writes `[k1, k2]`.
 ///
-/// # Errors
-/// A sentence for a lens with other terms, which the Lab never makes.
+/// # Errors A message for a lens with other terms, which the Lab never makes.
 pub(super) fn serialize<S: Serializer>(lens: &Lens, serializer: S) -> Result<S::Ok, S::Error> {
     let terms = match lens {
         Lens::Brown(distortion) => [distortion.k1, distortion.k2],

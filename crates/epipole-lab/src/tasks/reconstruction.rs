@@ -10,14 +10,14 @@ use crate::project::{InputPhoto, Key, Pose, Project, SfmOptions, Step, pairs};
 use epipole::camera::Lens;
 use serde::{Deserialize, Serialize};
 
-/// A point that was found.
+/// Reconstructed point.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointFound {
     /// Position in the world.
     pub position: [f64; 3],
-    /// Its color.
+    /// Color.
     pub color: [u8; 3],
-    /// Image and keypoint of each place where it was seen.
+    /// Image and keypoint of each observation.
     pub track: Vec<(u32, u32)>,
     /// Root mean square of its reprojection errors, pixels.
     pub error_px: f64,
@@ -26,9 +26,9 @@ pub struct PointFound {
 /// Cameras and points in one frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Component {
-    /// The camera of each image, or none.
+    /// Camera of each image, if registered.
     pub cameras: Vec<Option<CameraFound>>,
-    /// The lens of all.
+    /// Lens of all cameras.
     #[serde(rename = "distortion", with = "super::radial_lens")]
     pub lens: Lens,
     /// The points.
@@ -36,7 +36,7 @@ pub struct Component {
 }
 
 impl Component {
-    /// Number of registered photographs.
+    /// Returns the number of registered photographs.
     pub fn num_registered(&self) -> usize {
         self.cameras.iter().flatten().count()
     }
@@ -44,7 +44,7 @@ impl Component {
 
 #[cfg(any(feature = "vision", feature = "files"))]
 impl Component {
-    /// The component of the core's, the opposite of [`to_core`](Self::to_core).
+    /// Converts a component of the core; inverse of [`to_core`](Self::to_core).
     #[cfg(feature = "vision")]
     pub(super) fn from_core(found: &epipole::sfm::Reconstruction) -> Self {
         use epipole::camera::PosedCamera;
@@ -66,7 +66,7 @@ impl Component {
             track: point.track.iter().map(|e| (e.image, e.keypoint)).collect(),
             error_px: point.error_px,
         };
-        // One lens took them all.
+        // All photographs share one lens.
         let lens = (found.cameras.iter().flatten().next()).map_or(Lens::NONE, |c| c.camera.lens);
         Self {
             cameras: (found.cameras.iter())
@@ -77,19 +77,18 @@ impl Component {
         }
     }
 
-    /// The component as the core has it.
+    /// Converts the component to a type of the core.
     ///
     /// * `sizes`: width and height of each image, pixels
     ///
-    /// # Errors
-    /// A message for invalid numbers.
+    /// # Errors A message for invalid numbers.
     pub(super) fn to_core(
         &self,
         sizes: impl IntoIterator<Item = (u32, u32)>,
     ) -> Result<epipole::sfm::Reconstruction, String> {
         use epipole::sfm::{Reconstruction, ScenePoint, TrackElement};
         let camera = |(camera, size): (&Option<CameraFound>, (u32, u32))| {
-            // One lens took them all.
+            // All photographs share one lens.
             let camera = (camera.as_ref()).map(|camera| camera.posed(size, self.lens));
             camera.transpose()
         };
@@ -113,26 +112,26 @@ impl Component {
 /// Reason why a photograph is in no component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum UnregisteredReason {
-    /// Too few features; their number.
+    /// Too few features, with their number.
     FewFeatures(u32),
-    /// No other photograph shares enough matches that agree on one motion of the camera.
+    /// No other photograph shares enough matches that agree on one motion.
     NoOverlap,
-    /// Taken from nearly the same place as those that match it.
+    /// Too short a baseline to the overlapping photographs.
     NoBaseline,
-    /// None of the pairs with it could start a reconstruction.
+    /// None of its pairs could start a reconstruction.
     NoStart,
-    /// Too few visible points; their number.
+    /// Too few visible points, with their number.
     FewPoints(u32),
-    /// Number of visible points, which do not agree on a pose.
+    /// Visible points that do not agree on a pose, with their number.
     NoPose(u32),
-    /// The opened model has no pose of it.
+    /// No pose in the opened model.
     NoKnownPose,
 }
 
-/// The reconstruction from all photographs.
+/// Reconstruction from all photographs.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reconstructed {
-    /// Largest first.
+    /// Components, largest first.
     pub components: Vec<Component>,
     /// Cost after each adjustment, square pixels.
     pub costs: Vec<f64>,
@@ -140,10 +139,10 @@ pub struct Reconstructed {
     pub mean_error_px: Vec<f64>,
     /// Mean error of each component before its lens was corrected, pixels; `None` if it was not.
     pub before_correction_px: Vec<Option<f64>>,
-    /// Whether the photographs of each component tell its refined focal length; true if it is not
-    /// refined.
+    /// Whether the photographs of each component determine its refined focal length; true if it is
+    /// not refined.
     pub determines_focal: Vec<bool>,
-    /// For each image why it is in no component; `None` for those that are in one.
+    /// Reason why each image is in no component; `None` for registered ones.
     pub reasons: Vec<Option<UnregisteredReason>>,
 }
 
@@ -160,12 +159,12 @@ pub struct ImagePoints {
     pub colors: Vec<[u8; 3]>,
 }
 
-/// Matches of two photographs, by their places in a list.
+/// Matches of two photographs, by indices in a list.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairOf {
-    /// Place of the first.
+    /// Index of the first photograph.
     pub first: u32,
-    /// Place of the second.
+    /// Index of the second photograph.
     pub second: u32,
     /// Indices of keypoints, first photograph first.
     pub matches: Vec<(u32, u32)>,
@@ -173,7 +172,7 @@ pub struct PairOf {
 
 #[cfg(any(feature = "vision", feature = "files"))]
 impl ImagePoints {
-    /// The photograph as the core has it.
+    /// Converts the photograph to a type of the core.
     pub(super) fn sfm_image(&self) -> epipole::sfm::SfmImage {
         epipole::sfm::SfmImage {
             name: self.name.clone(),
@@ -184,7 +183,7 @@ impl ImagePoints {
     }
 }
 
-/// Finds cameras and points.
+/// Estimates cameras and points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reconstruct {
     /// The photographs.
@@ -193,7 +192,7 @@ pub struct Reconstruct {
     pub pairs: Vec<PairOf>,
     /// Reconstruction settings.
     pub options: SfmOptions,
-    /// Known pose of each photograph: then only points are found. Empty if none is known.
+    /// Known pose of each photograph, so that only points are estimated. Empty if none is known.
     pub poses: Vec<Option<Pose>>,
 }
 
@@ -201,7 +200,7 @@ impl Task for Reconstruct {
     type Output = Reconstructed;
 }
 
-/// The reconstruction from all photographs that take part.
+/// Query for the reconstruction from all photographs that take part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReconstructionOfAll;
 
@@ -213,7 +212,7 @@ impl Query for ReconstructionOfAll {
         vec![Self]
     }
 
-    /// Known once the cameras of all photographs are.
+    /// Returns a key once the cameras of all photographs are known.
     fn key(self, project: &Project) -> Option<Key> {
         let photos = project.taking_part();
         if photos.len() < 2 {
@@ -283,7 +282,7 @@ impl Query for ReconstructionOfAll {
 }
 
 impl Reconstructed {
-    /// Whether sizes, indices and numbers agree.
+    /// Whether sizes, indices and counts agree.
     ///
     /// * `counts`: number of features of each photograph
     fn is_valid(&self, counts: &[usize]) -> bool {
@@ -320,7 +319,7 @@ impl Reconstructed {
 }
 
 impl Project {
-    /// The photographs reduced to their keypoints, once all of them have features.
+    /// Returns the photographs reduced to their keypoints, once all of them have features.
     pub(crate) fn image_points(&self) -> Option<Vec<ImagePoints>> {
         let image = |photo: &&InputPhoto| {
             let features = self.get(FeaturesOf(photo.id))?;
@@ -334,7 +333,7 @@ impl Project {
         self.taking_part().iter().map(image).collect()
     }
 
-    /// Cameras and points so far of the reconstruction that is running.
+    /// Returns the cameras and points so far of a running reconstruction.
     pub fn growing(&self) -> Option<&Component> {
         let key = ReconstructionOfAll.key(self)?;
         let found: &Reconstructed = self.cache.partial(key)?;
@@ -342,7 +341,7 @@ impl Project {
         found.components.first().filter(|_| is_running)
     }
 
-    /// The component that is looked at.
+    /// Returns the current component.
     pub fn component(&self) -> Option<&Component> {
         let found = self.get(ReconstructionOfAll)?;
         found.components.get(self.view.component)

@@ -1,4 +1,4 @@
-//! Code that finds cameras and points, photograph by photograph.
+//! Code that estimates cameras and points, photograph by photograph.
 
 use super::convert::sentence;
 use super::known_poses_run::triangulate;
@@ -57,7 +57,7 @@ impl Run for Reconstruct {
         .map_err(sentence)?;
         let mut words = String::new();
         loop {
-            // Within a step there is nothing new to say, only to ask.
+            // Within a step the stage does not change; the monitor is only asked whether to cancel.
             let step = run.step(&mut |status: Status| {
                 share = status.share;
                 monitor(Progress::Share(share, &words))
@@ -136,7 +136,7 @@ fn reason(why: &Why) -> UnregisteredReason {
         Why::NoBaseline => UnregisteredReason::NoBaseline,
         Why::FewPoints { visible, .. } => UnregisteredReason::FewPoints(visible as u32),
         Why::NoPose { visible } => UnregisteredReason::NoPose(visible as u32),
-        // Nothing ends a task early but cancellation, so `NotTried` does not occur.
+        // Only cancellation ends a task early, so `NotTried` does not occur.
         _ => UnregisteredReason::NoStart,
     }
 }

@@ -61,7 +61,7 @@ impl Run for ReducePhotograph {
     }
 }
 
-/// The downscaled photograph of this number.
+/// Query for the downscaled photograph with this number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReducedOf(pub PhotoId);
 
@@ -69,7 +69,7 @@ impl Query for ReducedOf {
     type Task = ReducePhotograph;
     const STEP: Step = Step::Depth;
 
-    /// The registered photographs, while their depth is still to be found.
+    /// Returns the registered photographs, until the depth of all views is available.
     fn all(project: &Project) -> Vec<Self> {
         match project.awaits_views() {
             true => project.registered().into_iter().map(Self).collect(),

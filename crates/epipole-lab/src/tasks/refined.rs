@@ -1,10 +1,10 @@
-//! Which parameters of lenses a reconstruction refines.
+//! Lens parameters that a reconstruction refines.
 
 use super::photograph::FocalOrigin;
 use crate::project::{InputPhoto, Project, RefineFocal, SfmOptions};
 
 impl Project {
-    /// Options of the reconstruction, with "when guessed" resolved.
+    /// Returns the options of the reconstruction, with "when guessed" resolved.
     pub fn sfm_options(&self) -> SfmOptions {
         let guessed = || {
             let mut photos = self.taking_part().into_iter();
@@ -31,8 +31,8 @@ impl Project {
         }
     }
 
-    /// Whether the lens is corrected in the end: it is as the files say, or guessed, and no other
-    /// refinement is asked for.
+    /// Whether the lens is corrected at the end: it is guessed or from the files, and no other
+    /// refinement is selected.
     fn corrects_lens(&self) -> bool {
         let settings = &self.document.settings;
         let is_open = |photo: &InputPhoto| {

@@ -12,10 +12,10 @@ use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3
 /// Width and height of a rendered photograph, pixels.
 const RENDERED: (u32, u32) = (480, 360);
 
-/// A photograph of a sample, and its focal length in pixels, if it tells one.
+/// Renders a photograph of a sample. Returns it with its focal length in pixels, if its file would
+/// contain one.
 ///
-/// # Errors
-/// A sentence, if there is none of this number.
+/// # Errors A message, if the sample has no photograph with this index.
 pub(super) fn render(sample: Sample, index: u8) -> Result<(RgbImage, Option<f64>), String> {
     if index >= sample.len() {
         return Err("the sample has no such photograph".to_owned());
@@ -56,7 +56,7 @@ fn photographed(camera: &PosedCamera, sample: Sample, index: u8) -> Result<RgbIm
     Ok(picture.map_err(|error| error.to_string())?.image)
 }
 
-/// Nine places on an arc around the still life, every other one a little higher.
+/// Returns one of nine cameras on an arc around the still life, every second one a little higher.
 fn around_table(index: u8) -> Result<PosedCamera, String> {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let middle = Point3::new(0.035, -0.13, 0.05);
@@ -84,7 +84,7 @@ fn is_upright(sample: Sample, index: u8) -> bool {
     sample == Sample::Upright && index % 2 == 1
 }
 
-/// One camera around the table, every other time held upright.
+/// Returns a camera around the table; every second one is in portrait format.
 fn held(index: u8) -> Result<PosedCamera, String> {
     let camera = around_table(index + 2)?;
     let (width, height) = match is_upright(Sample::Upright, index) {
@@ -102,18 +102,18 @@ fn held(index: u8) -> Result<PosedCamera, String> {
     })
 }
 
-/// Size in pixels of the picture on the wall.
+/// Size of the picture on the wall, pixels.
 const PRINTED: (u32, u32) = (960, 720);
 
-/// A picture on a wall, photographed from positions on an arc around its middle. The world frame is
-/// the picture's: a camera at the origin sees exactly the picture at a distance of 1.
+/// Renders a picture on a wall from positions on an arc around its middle. The world frame is the
+/// picture's: a camera at the origin sees exactly the picture at a distance of 1.
 fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
     let print = still_life_camera(PRINTED.0, PRINTED.1);
     let k = still_life_camera(RENDERED.0, RENDERED.1).camera.intrinsics;
     let angle = (f64::from(index) - 1.5) * 13.0_f64.to_radians();
     let center = Vector3::new(0.7 * libm::sin(angle), 0.0, 1.0 - 0.7 * libm::cos(angle));
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
-    // A point p of the poster has the depth 1 there, so p - c = (I - c nᵀ) p.
+    // A point p of the poster has depth 1, so p - c = (I - c nᵀ) p.
     let seen = Matrix3::identity() - center * Vector3::z().transpose();
     let view_from_print = k.matrix()
         * turn.to_rotation_matrix().matrix()
@@ -123,7 +123,7 @@ fn hung(picture: &RgbImage, index: u8) -> epipole::Result<RgbImage> {
     map.warp(picture, &mut ())
 }
 
-/// A carpet of patches that are nowhere else.
+/// Draws a texture of random patches, unrelated to the other scene.
 fn carpet() -> RgbImage {
     let mut random = Random::new(3);
     let mut image = RgbImage::from_pixel(PRINTED.0, PRINTED.1, image::Rgb([120, 110, 100]));
@@ -142,7 +142,7 @@ fn carpet() -> RgbImage {
     image
 }
 
-/// The camera of the still life, rotated about its own center.
+/// Returns the camera of the still life, rotated about its center.
 fn turned(index: u8) -> PosedCamera {
     let camera = still_life_camera(RENDERED.0, RENDERED.1);
     let angle = (f64::from(index) - 1.5) * 5.0_f64.to_radians();

@@ -1,4 +1,4 @@
-//! Tasks, and the queries of the project that they answer.
+//! Tasks, and the project's queries that they answer.
 
 use crate::project::{Key, Project, Step, to_bytes};
 use serde::Serialize;
@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 /// Progress of a running task.
 #[derive(Debug)]
 pub enum Progress<'a> {
-    /// Share done, 0 to 1, and the current stage in a few words.
+    /// Fraction done, 0 to 1, and the current stage in a few words.
     Share(f32, &'a str),
     /// Intermediate output, as bytes.
     Partial(Vec<u8>),
@@ -17,7 +17,7 @@ pub enum Progress<'a> {
 /// Progress callback of a task; cancels it by [`ControlFlow::Break`].
 pub type Monitor<'a> = &'a mut dyn FnMut(Progress<'_>) -> ControlFlow<()>;
 
-/// Reports the share done.
+/// Reports the fraction done.
 ///
 /// # Errors
 /// "stopped", if the callback cancels.
@@ -29,22 +29,22 @@ pub(super) fn report(monitor: Monitor<'_>, share: f32, stage: &str) -> Result<()
     }
 }
 
-/// A computation in a worker. The value holds everything that the output depends on.
+/// Computation in a worker. The value holds all inputs of the output.
 pub trait Task: Serialize + DeserializeOwned {
-    /// Output.
+    /// Type of the output.
     type Output: Serialize + DeserializeOwned + 'static;
 
-    /// Whether an output that came as bytes is consistent.
+    /// Whether a decoded output is consistent.
     fn is_whole(_output: &Self::Output) -> bool {
         true
     }
 
-    /// Writes an output as bytes.
+    /// Encodes an output.
     fn write(output: &Self::Output) -> Vec<u8> {
         to_bytes(output)
     }
 
-    /// Reads an output from bytes.
+    /// Decodes an output.
     ///
     /// # Errors
     /// A message for invalid bytes.
@@ -54,7 +54,7 @@ pub trait Task: Serialize + DeserializeOwned {
     }
 }
 
-/// The code of a task, which only its worker has.
+/// Code of a task, compiled only into its worker.
 #[cfg(any(feature = "vision", feature = "files"))]
 pub(super) trait Run: Task {
     /// Computes the output.
@@ -69,15 +69,15 @@ pub(super) trait Run: Task {
 pub enum Destination {
     /// The file of a project.
     Project,
-    /// The sample of the Lab: without descriptors, which only their display and new matching need.
-    /// Those are nine bytes of ten.
+    /// The sample of the Lab: without descriptors, which take 90 % of the size and are needed only
+    /// for their display and for new matches.
     Sample,
 }
 
 /// Output of the task of a query.
 pub type Output<Q> = <<Q as Query>::Task as Task>::Output;
 
-/// A question about the project, answered by the output of a task in the cache.
+/// Query about the project, answered by the cached output of a task.
 pub trait Query: Copy + 'static {
     /// Task that answers it.
     type Task: Task;
@@ -91,13 +91,13 @@ pub trait Query: Copy + 'static {
     /// Hash of everything that the output depends on; `None` while that is unknown.
     fn key(self, project: &Project) -> Option<Key>;
 
-    /// Whether the inputs of the task are there.
+    /// Whether the inputs of the task are available.
     ///
-    /// * `is_imported`: whether the output is in a file already, so that only the inputs are needed
-    ///   that it is checked against
+    /// * `is_imported`: whether the output comes from a file, so that only the inputs for its
+    ///   validation are needed
     fn is_ready(self, project: &Project, is_imported: bool) -> bool;
 
-    /// Urgency, lowest first.
+    /// Priority, most urgent lowest.
     fn priority(self, project: &Project) -> u8;
 
     /// The task with its inputs.
@@ -106,29 +106,29 @@ pub trait Query: Copy + 'static {
     /// Description while it is running.
     fn label(self, project: &Project) -> String;
 
-    /// Whether there is an output, or an error message.
+    /// Whether an output or an error message is available.
     fn is_settled(self, project: &Project) -> bool {
         project.get(self).is_some() || project.failure(self).is_some()
     }
 
-    /// Form of an output in a file; `None` if it is computed again.
+    /// Returns the form of an output in a file; `None` if it is computed again.
     fn stored(_output: &Output<Self>, _destination: Destination) -> Option<Output<Self>> {
         None
     }
 
-    /// Whether an output from a file, which is untrusted, is one of this query.
+    /// Whether an output from an untrusted file is valid for this query.
     fn fits(self, _project: &Project, _output: &Output<Self>) -> bool {
         false
     }
 }
 
 impl Project {
-    /// The output of a query, if it is in the cache.
+    /// Returns the output of a query, if it is in the cache.
     pub fn get<Q: Query>(&self, query: Q) -> Option<&Output<Q>> {
         self.cache.get(query.key(self)?)
     }
 
-    /// Error message of the task of a query, if it failed.
+    /// Returns the error message of a query's task, if it failed.
     pub fn failure<Q: Query>(&self, query: Q) -> Option<&str> {
         self.cache.failure(query.key(self)?)
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::project::Blob;
 
-/// Width of a small photograph, pixels, or a little less.
+/// Maximum width of a thumbnail, pixels.
 #[cfg(feature = "files")]
 const WIDTH: u32 = 352;
 
@@ -20,9 +20,9 @@ pub struct Thumbnail {
 }
 
 impl Thumbnail {
-    /// Every block of so many pixels a side as their mean.
+    /// Averages square blocks of a photograph.
     ///
-    /// * `rgb`: red, green, blue, row by row, of a photograph of this width and height
+    /// * `rgb`: red, green, blue, row by row, of a photograph with this width and height
     #[cfg(feature = "files")]
     pub(super) fn new((width, height): (u32, u32), rgb: &[u8]) -> Self {
         let factor = width.div_ceil(WIDTH).min(height).max(1);
@@ -57,8 +57,7 @@ mod tests {
 
     #[test]
     fn each_pixel_is_the_mean_of_a_block() {
-        // Two blocks of two columns each above an odd row, which is left out; columns beyond them
-        // likewise.
+        // Two blocks of two columns each; the odd row and further columns are dropped.
         let (width, height) = (2 * WIDTH, 3);
         let level = |u: u32, v: u32| [(u / 2 % 200) as u8, (10 * v) as u8, (u % 2 * 8) as u8];
         let pixels = (0..height).flat_map(|v| (0..width).map(move |u| level(u, v)));
@@ -66,7 +65,7 @@ mod tests {
         let small = Thumbnail::new((width, height), &rgb);
         assert_eq!((small.width, small.height), (WIDTH, 1));
         assert_eq!(small.rgb[..6], [0, 5, 4, 1, 5, 4]);
-        // One that is small stays as it is.
+        // A small image is not changed.
         let same = Thumbnail::new((2, 1), &[1, 2, 3, 4, 5, 6]);
         assert_eq!(
             (same.width, same.height, &*same.rgb),

@@ -12,24 +12,24 @@ use serde::{Deserialize, Serialize};
 /// Kind of scene and motion of two photographs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Shows {
-    /// A scene with depth, from two places.
+    /// A scene with depth, from two positions.
     Depth,
-    /// A plane, from two places.
+    /// A plane, from two positions.
     Plane,
-    /// The camera only rotated, or did not move at all.
+    /// A rotation only, or no motion at all.
     Turn,
-    /// No more matches agree than by chance.
+    /// No more agreeing matches than by chance.
     Nothing,
 }
 
-/// The matrix that was chosen for two photographs, row by row.
+/// Selected matrix of two photographs, row by row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum ViewModel {
-    /// E.
+    /// Essential matrix.
     Essential([f64; 9]),
-    /// F.
+    /// Fundamental matrix.
     Fundamental([f64; 9]),
-    /// H.
+    /// Homography.
     Homography([f64; 9]),
 }
 
@@ -38,33 +38,33 @@ pub enum ViewModel {
 pub struct TwoViews {
     /// Kind of scene and motion.
     pub shows: Shows,
-    /// The matrix chosen.
+    /// Selected matrix.
     pub model: ViewModel,
-    /// F in pixels, where there is one.
+    /// Fundamental matrix in pixels, if defined.
     pub fundamental: Option<[f64; 9]>,
-    /// Whether each match fits.
+    /// Whether each match is an inlier.
     pub inliers: Vec<bool>,
     /// Number of inliers.
     pub num_inliers: u32,
-    /// Samples drawn.
+    /// Number of samples drawn.
     pub iterations: u32,
-    /// The rotation of the camera, degrees, if known.
+    /// Rotation angle of the camera, degrees, if known.
     pub turn_deg: Option<f64>,
-    /// Factor of the given focal lengths for which the camera only rotated, if it did not with the
+    /// Factor of the focal lengths for which the motion is a pure rotation, if it is none for the
     /// given ones.
     pub focal_factor: Option<f64>,
-    /// The median triangulation angle, degrees, if known.
+    /// Median triangulation angle, degrees, if known.
     pub angle_deg: Option<f64>,
 }
 
 /// Estimates the two-view geometry of two photographs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VerifyPair {
-    /// Places of the matches: `u1, v1, u2, v2`.
+    /// Positions of the matches: `u1, v1, u2, v2`.
     pub places: Vec<[f64; 4]>,
     /// Ratio of descriptor distances of each match: the higher, the more ambiguous.
     pub ratios: Vec<f32>,
-    /// Of both photographs.
+    /// Intrinsics of both photographs.
     pub cameras: [Calibrated; 2],
     /// Two-view settings.
     pub options: PairOptions,
@@ -74,7 +74,7 @@ impl Task for VerifyPair {
     type Output = TwoViews;
 }
 
-/// The two-view geometry of a pair, the first before the second in the list.
+/// Query for the two-view geometry of a pair, in the order of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TwoViewsOf(pub PhotoId, pub PhotoId);
 
@@ -112,7 +112,7 @@ impl Query for TwoViewsOf {
         project.get(MatchesOf(self.0, self.1)).is_some()
     }
 
-    /// The pair that is looked at comes before the reconstruction, all others after it.
+    /// The selected pair comes before the reconstruction, all others after it.
     fn priority(self, project: &Project) -> u8 {
         match project.view.pair == (self.0, self.1) {
             true => 50,
@@ -157,9 +157,9 @@ impl Query for TwoViewsOf {
 
 #[cfg(feature = "vision")]
 impl Run for VerifyPair {
-    /// Chooses among E, F and H, as `epipole two-view` does with known intrinsics: the least
-    /// ambiguous matches first. Matches that do not allow any estimate also give an answer:
-    /// [`Shows::Nothing`].
+    /// Chooses among E, F and H, as `epipole two-view` does with known intrinsics, sampling the
+    /// least ambiguous matches first. Returns [`Shows::Nothing`] if matches do not allow any
+    /// estimate.
     fn run(self, monitor: Monitor<'_>) -> Result<TwoViews, String> {
         use super::convert::sentence;
         use epipole::camera::Camera;
@@ -192,7 +192,7 @@ impl Run for VerifyPair {
         );
         how.check().map_err(sentence)?;
         let mut watch = |status: Status| monitor(Progress::Share(status.share, ""));
-        // Estimators do not use the size of the images.
+        // Estimators ignore the size of the images.
         let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
         let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut watch);
         if found == Err(epipole::Error::Canceled) {
@@ -202,7 +202,7 @@ impl Run for VerifyPair {
             return Ok(nothing(places.len()));
         };
         report(monitor, 0.0, "")?;
-        // With a wrong focal length a rotation passes for a plane.
+        // With a wrong focal length, a rotation can look like a plane.
         let otherwise = match found.configuration {
             Configuration::Planar => {
                 find_turn_and_focal(&first, &second, [&one, &two], &found.inliers, &how)

@@ -1,16 +1,16 @@
-//! Photographs and size for the depth of all views.
+//! Selection and size of photographs for the depth of all views.
 
 use super::dense_cloud::DenseCloud;
 use super::reconstruction::ReconstructionOfAll;
 use super::task::Query;
 use crate::project::{Key, PhotoId, Project};
 
-/// Maximum number of pixels of all photographs. Their depth takes 60 bytes each, 0.7 GB, of the
-/// 4 GB that a worker can have.
+/// Maximum number of pixels of all photographs. At 60 bytes each they take 0.7 GB, of the 4 GB
+/// available to a worker.
 const MAX_PIXELS: f64 = 12e6;
 
 impl Project {
-    /// The photographs that are registered in the component that is looked at.
+    /// Returns the registered photographs of the current component.
     pub(super) fn registered(&self) -> Vec<PhotoId> {
         let Some(component) = self.component() else {
             return Vec::new();
@@ -20,8 +20,8 @@ impl Project {
         registered.map(|(photo, _)| photo.id).collect()
     }
 
-    /// Maximum number of pixels of a photograph for the depth of all views: the setting, or less if
-    /// there are many.
+    /// Returns the maximum number of pixels of a photograph for the depth of all views: the
+    /// setting, or less for many photographs.
     pub(crate) fn max_view_pixels(&self) -> Option<u32> {
         let count = self.component()?.num_registered().max(1);
         let wanted = self.document.settings.all_views.max_megapixels * 1e6;
@@ -41,7 +41,7 @@ impl Project {
         )))
     }
 
-    /// Whether the depth of all views is asked for, and neither there nor in a file.
+    /// Whether the depth of all views is selected, but neither computed nor in a file.
     pub(super) fn awaits_views(&self) -> bool {
         let is_open = |key: Key| {
             self.cache.get::<DenseCloud>(key).is_none()

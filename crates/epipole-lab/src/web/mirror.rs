@@ -1,9 +1,9 @@
-//! Mirror of the toolkit's widgets, which the page exposes to assistive technology: a canvas has no
-//! accessible content of its own.
+//! Mirror of the toolkit's widgets, which the page exposes to assistive technology, as a canvas has
+//! no accessible content.
 //!
-//! One line per widget: number, role, name, value, state, minimum, maximum, step, "open" or
-//! "closed" for the opener of a list, description, and for an item of a list the number of its
-//! opener; separated by tabs.
+//! One line per widget, separated by tabs: number, role, name, value, state, minimum, maximum,
+//! step, "open" or "closed" for a button that opens a list, description, and for an item of a list
+//! the number of its button.
 
 use egui::accesskit::{
     Action, ActionData, ActionRequest, Node, NodeId, Role, Toggled, TreeId, TreeUpdate,
@@ -21,25 +21,25 @@ pub(super) struct State {
     sent: Vec<(NodeId, Operation)>,
 }
 
-/// Number of passes in which a widget is searched for: numbers shift while a panel fills, and not
-/// in each of them.
+/// Number of passes in which an operation is tried, since numbers change between passes while a
+/// panel fills.
 const PATIENCE: u8 = 5;
 
-/// A widget to be operated, as the page has seen it.
+/// Operation of a widget, identified as the page last saw it.
 #[derive(Clone)]
 pub(super) struct Operation {
     pub(super) widget: u64,
     pub(super) role: String,
     pub(super) name: String,
-    /// The number that it gets; else it is clicked.
+    /// New value; without one, the widget is clicked.
     pub(super) value: Option<f64>,
-    /// Passes that did not reach it.
+    /// Number of passes that missed it.
     pub(super) missed: u8,
 }
 
 impl Operation {
-    /// Finds the widget's current number. The toolkit counts widgets, so the number that the page
-    /// read may belong to another one by now, such as the widget in the former place of "Undo".
+    /// Finds the widget's current number. The toolkit numbers widgets in order, so the page's
+    /// number may now belong to another one, such as the widget in the former place of "Undo".
     fn find(&self, widgets: &str) -> Option<NodeId> {
         let alike = || {
             widgets.lines().filter_map(|line| {
@@ -51,7 +51,7 @@ impl Operation {
         };
         let is_same = |&(number, _): &(u64, &str)| number == self.widget;
         let is_named = |&(_, name): &(u64, &str)| name == self.name;
-        // A widget whose name includes its state may have another name by now.
+        // The name of a widget that includes its state may have changed.
         let found = (alike().find(|widget| is_same(widget) && is_named(widget)))
             .or_else(|| alike().find(is_named))
             .or_else(|| alike().find(is_same));
@@ -59,7 +59,7 @@ impl Operation {
     }
 }
 
-/// One end of the line between page and toolkit.
+/// Shared end of the connection between page and toolkit.
 #[derive(Clone, Default)]
 pub(super) struct Mirror(Arc<Mutex<State>>);
 
@@ -68,12 +68,12 @@ impl Mirror {
         with(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// All widgets, if they have changed since the last call.
+    /// Returns all widgets, if they have changed since the last call.
     pub(super) fn changed_widgets(&self) -> Option<String> {
         self.with_state(|state| std::mem::take(&mut state.is_new).then(|| state.widgets.clone()))
     }
 
-    /// Operates a widget with the next frame.
+    /// Operates a widget in the next frame.
     pub(super) fn operate(&self, operation: Operation) {
         self.with_state(|state| state.operations.push(operation));
     }
@@ -112,7 +112,7 @@ impl egui::Plugin for Mirror {
         if let Some(update) = output.platform_output.accesskit_update.take() {
             let widgets = lines(&update);
             let again = self.with_state(|state| {
-                // A widget that got another number in this very pass has heard nothing.
+                // A widget whose number changed in this pass did not get the action.
                 let has_heard = |id: NodeId, role: &str| {
                     let known = format!("{}\t{role}\t", id.0);
                     widgets.lines().any(|line| line.starts_with(&known))
@@ -146,7 +146,7 @@ fn lines(update: &TreeUpdate) -> String {
     let Some(root) = update.tree.as_ref().map(|tree| tree.root) else {
         return text;
     };
-    // With the widget that has opened the list in which it is, if it is in one.
+    // Each node with the button that opened its list, if any.
     let mut open = vec![(root, None)];
     while let Some((id, opener)) = open.pop() {
         let Some(node) = nodes.get(&id) else { continue };
@@ -154,8 +154,7 @@ fn lines(update: &TreeUpdate) -> String {
             let opener = opener.map_or(String::new(), |NodeId(number)| number.to_string());
             text.push_str(&format!("{line}\t{opener}\n"));
         }
-        // Children of labels are runs of letters. Those of a button may be the menu that it has
-        // opened.
+        // Children of labels are text runs. Those of a button may be its open menu.
         if !matches!(node.role(), Role::Label | Role::TextInput) {
             let opener = node.is_expanded().map(|_| id).or(opener);
             open.extend(node.children().iter().rev().map(|child| (*child, opener)));
@@ -216,7 +215,7 @@ fn line(id: NodeId, node: &Node, nodes: &BTreeMap<NodeId, &Node>) -> Option<Stri
     Some(fields.join("\t"))
 }
 
-/// Words in one line.
+/// Joins a text into one line.
 fn plain(words: &str) -> String {
     let space = |c: char| if c.is_control() { ' ' } else { c };
     words.chars().map(space).collect()

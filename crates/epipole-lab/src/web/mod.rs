@@ -1,4 +1,4 @@
-//! The Lab in the browser: a page, and workers with a module of their own.
+//! The Lab in the browser: a page, and workers with a separate module.
 
 #[cfg(feature = "page")]
 mod mirror;

@@ -11,13 +11,13 @@ use std::time::Duration;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Delay of a progress report until the next frame: several workers report within it, and each
-/// frame slows them down.
+/// Delay of a frame after a progress report: it collects reports of several workers, which each
+/// frame slows down.
 const PATIENCE: Duration = Duration::from_millis(250);
 
-/// Delay until an answer is shown.
+/// Delay of a frame after an answer.
 const SOON: Duration = Duration::from_millis(120);
-/// Delay of a single further frame: without any, egui draws two.
+/// Delay that requests a single further frame; without one, egui draws two.
 const NEXT: Duration = Duration::from_millis(1);
 
 struct Frames(App<Page>);
@@ -28,7 +28,7 @@ impl eframe::App for Frames {
         if let Some(theme) = inbox.borrow_mut().theme.take() {
             set_theme(ui.ctx(), &theme);
         }
-        // Answers request a frame when they arrive, so nothing has to be drawn until then.
+        // Answers request a frame when they arrive, so there is no need to draw before.
         self.0.advance();
         self.0.ui(ui);
     }
@@ -53,7 +53,7 @@ pub struct Lab {
 
 #[wasm_bindgen]
 impl Lab {
-    /// A Lab that shows nothing yet.
+    /// Creates a Lab that shows nothing yet.
     #[wasm_bindgen(constructor)]
     pub fn new() -> Self {
         Self {
@@ -63,10 +63,9 @@ impl Lab {
         }
     }
 
-    /// Shows itself on a canvas.
+    /// Starts drawing on a canvas.
     ///
-    /// # Errors
-    /// If there is no WebGL.
+    /// # Errors If WebGL is not available.
     pub async fn start(&self, canvas: HtmlCanvasElement, shell: Shell) -> Result<(), JsValue> {
         let (inbox, mirror) = (Rc::clone(&self.inbox), self.mirror.clone());
         let creator = Box::new(move |creation: &eframe::CreationContext<'_>| {
@@ -80,12 +79,12 @@ impl Lab {
         self.runner.start(canvas, options, creator).await
     }
 
-    /// Takes something, for the next frame.
+    /// Puts input into the inbox, and requests a frame at once.
     fn receive(&self, put: impl FnOnce(&mut Inbox)) {
         self.receive_within(Duration::ZERO, put);
     }
 
-    /// The same for something that can wait for others.
+    /// Puts input into the inbox, and requests a frame after a delay.
     fn receive_within(&self, wait: Duration, put: impl FnOnce(&mut Inbox)) {
         let mut inbox = self.inbox.borrow_mut();
         put(&mut inbox);
@@ -94,7 +93,7 @@ impl Lab {
         }
     }
 
-    /// Starts the follow-up jobs of an answer at once: workers do not wait for a frame.
+    /// Starts the follow-up jobs of an answer at once, so that workers do not wait for a frame.
     fn answered(&self, report: Report) {
         self.receive_within(SOON, |inbox| inbox.reports.push(report));
         let rests = (self.runner.app_mut::<Frames>()).is_none_or(|mut frames| {
@@ -137,7 +136,7 @@ impl Lab {
         self.answered(report);
     }
 
-    /// Delivers a photograph, to be added with the next [`Lab::deliver`].
+    /// Delivers a photograph, to be added by the next [`Lab::deliver`].
     pub fn photograph(&self, name: String, bytes: Vec<u8>) {
         self.inbox
             .borrow_mut()
@@ -145,7 +144,7 @@ impl Lab {
             .push((name, bytes.into()));
     }
 
-    /// All photographs of one choice have come.
+    /// Adds the photographs delivered since the last call.
     pub fn deliver(&self) {
         self.receive(|inbox| {
             let photographs = std::mem::take(&mut inbox.photographs);
@@ -158,12 +157,12 @@ impl Lab {
         self.receive(|inbox| inbox.host_events.push(HostEvent::Video(video)));
     }
 
-    /// Delivers a frame of the requested part of a video, to be used with the next [`Lab::frames`].
+    /// Delivers a frame of the requested part of a video, to be used by the next [`Lab::frames`].
     pub fn frame(&self, bytes: Vec<u8>) {
         self.inbox.borrow_mut().frames.push(bytes.into());
     }
 
-    /// All frames of that part have been delivered.
+    /// Ends the frames of the requested part.
     pub fn frames(&self, video: u32, name: String) {
         self.receive(|inbox| {
             let frames = std::mem::take(&mut inbox.frames);
@@ -173,7 +172,7 @@ impl Lab {
         });
     }
 
-    /// No more frames of a video follow, with the reason.
+    /// Ends a video early, with the reason.
     #[wasm_bindgen(js_name = noFrames)]
     pub fn no_frames(&self, video: u32, sentence: String) {
         self.receive(|inbox| {
@@ -187,7 +186,7 @@ impl Lab {
         self.receive(|inbox| inbox.host_events.push(HostEvent::Notice(sentence)));
     }
 
-    /// Applies the parameters of an address: names and values by turns.
+    /// Applies the parameters of an address: names and values alternately.
     pub fn link(&self, parameters: Vec<String>) {
         let pairs = parameters.chunks_exact(2);
         let parameters = pairs
@@ -206,13 +205,13 @@ impl Lab {
         self.receive(|inbox| inbox.host_events.push(HostEvent::Project(archive.into())));
     }
 
-    /// Delivers a file of cameras, to be opened with the next [`Lab::cameras`].
+    /// Delivers a camera file, to be opened by the next [`Lab::cameras`].
     #[wasm_bindgen(js_name = cameraFile)]
     pub fn camera_file(&self, name: String, bytes: Vec<u8>) {
         self.inbox.borrow_mut().cameras.push((name, bytes.into()));
     }
 
-    /// All files of cameras that were chosen together have been delivered.
+    /// Opens the camera files delivered since the last call.
     pub fn cameras(&self) {
         self.receive(|inbox| {
             let cameras = std::mem::take(&mut inbox.cameras);
@@ -224,45 +223,46 @@ impl Lab {
         self.receive(|inbox| inbox.host_events.push(HostEvent::Stored(stored)));
     }
 
-    /// Delivers the project that the browser keeps.
+    /// Delivers the project stored in the browser.
     #[wasm_bindgen(js_name = keptProject)]
     pub fn kept_project(&self, archive: Vec<u8>) {
         self.stored(Stored::Project(archive.into()));
     }
 
-    /// The browser keeps a project that is not open, and a sentence why.
+    /// Reports that the browser stores a project that is not open, with the reason.
     #[wasm_bindgen(js_name = keptAside)]
     pub fn kept_aside(&self, sentence: String) {
         self.stored(Stored::Closed(sentence));
     }
 
-    /// The project was kept: number of bytes.
+    /// Reports that the project was stored: number of bytes.
     pub fn kept(&self, num_bytes: f64) {
         self.stored(Stored::Written(num_bytes as usize));
     }
 
-    /// The project was not kept, with the reason, and whether the previous one still exists.
+    /// Reports that the project was not stored, with the reason, and whether the previous one still
+    /// exists.
     #[wasm_bindgen(js_name = notKept)]
     pub fn not_kept(&self, why: String, is_there: bool) {
         self.stored(Stored::Failed { why, is_there });
     }
 
-    /// Another page has erased the kept project.
+    /// Reports that another page has erased the stored project.
     pub fn forgotten(&self) {
         self.stored(Stored::Erased);
     }
 
-    /// Puts a theme on: "light", "dark" or "high-contrast".
+    /// Applies a theme: "light", "dark" or "high-contrast".
     pub fn theme(&self, theme: String) {
         self.receive(|inbox| inbox.theme = Some(theme));
     }
 
-    /// All widgets, if they have changed: one per line, in the format of `mirror.rs`.
+    /// Returns all widgets, if they have changed: one per line, in the format of `mirror.rs`.
     pub fn widgets(&self) -> Option<String> {
         self.mirror.changed_widgets()
     }
 
-    /// Operates a widget, by its number, role and name: clicks it, or sets its number.
+    /// Operates a widget, given its number, role and name: clicks it, or sets its value.
     pub fn operate(&self, widget: &str, role: String, name: String, value: Option<f64>) {
         let Ok(widget) = widget.parse() else { return };
         self.mirror.operate(Operation {
@@ -275,7 +275,7 @@ impl Lab {
         self.receive(|_| {});
     }
 
-    /// The message of a panic, after which the Lab has stopped.
+    /// Returns the message of a panic, after which the Lab has stopped.
     pub fn panic(&self) -> Option<String> {
         self.runner.panic_summary().map(|summary| summary.message())
     }

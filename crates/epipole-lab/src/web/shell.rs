@@ -1,4 +1,4 @@
-//! The page's side: functions of its script, and input that waits for the next frame.
+//! Interface to the page: functions of its script, and input that waits for the next frame.
 
 use crate::project::{Blob, Explanation};
 use crate::session::{Host, HostEvent, JobId, Report};
@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
-    /// The script of the page, which has workers, file inputs and downloads.
+    /// Script of the page, which has workers, file inputs and downloads.
     pub type Shell;
 
     #[wasm_bindgen(method, structural)]
@@ -58,7 +58,7 @@ pub(super) struct Inbox {
     pub(super) context: Option<egui::Context>,
 }
 
-/// The environment of the Lab in a page.
+/// Host of the Lab in a page.
 pub(super) struct Page {
     pub(super) shell: Shell,
     pub(super) inbox: Rc<RefCell<Inbox>>,

@@ -11,19 +11,19 @@ thread_local! {
 
 #[wasm_bindgen]
 extern "C" {
-    /// Receiver of a computation's progress.
+    /// Callbacks for a computation's progress.
     pub type Listener;
 
-    /// Called with the progress, 0 to 1, and the current stage.
+    /// Reports the progress, 0 to 1, and the current stage.
     #[wasm_bindgen(method, structural)]
     fn progress(this: &Listener, share: f32, words: &str);
 
-    /// Called with intermediate results.
+    /// Reports an intermediate result.
     #[wasm_bindgen(method, structural, js_name = soFar)]
     fn so_far(this: &Listener, answer: Vec<u8>);
 }
 
-/// Runs once when a worker has loaded the module.
+/// Runs once after a worker has loaded the module.
 #[wasm_bindgen(start)]
 pub fn start() {
     std::panic::set_hook(Box::new(|info| {
@@ -36,16 +36,15 @@ pub fn start() {
     }));
 }
 
-/// The message of the last panic, once.
+/// Returns the message of the last panic, once.
 #[wasm_bindgen]
 pub fn take_panic() -> Option<String> {
     LAST_PANIC.with(|last| last.try_borrow_mut().ok().and_then(|mut last| last.take()))
 }
 
-/// Carries out a request of the Lab. To end it early, end its worker.
+/// Runs a request of the Lab. Terminating its worker cancels it.
 ///
-/// # Errors
-/// A sentence for the reader.
+/// # Errors A message for the reader.
 #[wasm_bindgen(js_name = compute)]
 pub fn carry_out(request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
     compute(request, &mut |progress| {

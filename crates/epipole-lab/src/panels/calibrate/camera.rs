@@ -1,4 +1,4 @@
-//! The board, the camera that it gives with its uncertainty, and the error of each photograph.
+//! The board, the calibrated camera with its uncertainty, and the error of each photograph.
 
 use crate::panels::screen::{Action, Screen};
 use crate::panels::widgets::controls::{self, Change};
@@ -9,7 +9,7 @@ use crate::tasks::{Calibration, CalibrationOfBoards, CameraFormat};
 use egui::{DragValue, Rect, Sense, Stroke, Ui, vec2};
 use epipole_canvas::theme::Role;
 
-/// The board, the camera, each photograph.
+/// Draws the board, the camera and the photographs.
 pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut Ui) {
     let project = screen.project;
     ui.horizontal_wrapped(|ui| {
@@ -52,7 +52,7 @@ pub(super) fn controls(screen: &mut Screen<'_>, all_marks: &mut bool, ui: &mut U
     controls::book(ui, Step::Calibrate);
 }
 
-/// Which board, and which lens.
+/// Draws the controls of board and lens.
 fn board(screen: &mut Screen<'_>, ui: &mut Ui) {
     controls::edit(screen, |settings| {
         let options = &mut settings.calibration;
@@ -89,7 +89,7 @@ fn board(screen: &mut Screen<'_>, ui: &mut Ui) {
             .max_decimals(3);
         let moved = ui.horizontal(|ui| number(ui, side, field)).inner;
         if moved != Change::No {
-            // As a reader types it: 25 mm are 0.025 m, and no digit more.
+            // Rounded to what a reader types: 25 mm are 0.025 m, without further digits.
             options.square_m = (side_mm * 1e6).round() / 1e9;
         }
         change = change.max(moved);
@@ -116,7 +116,7 @@ fn number(ui: &mut Ui, name: &str, field: DragValue<'_>) -> Change {
     controls::change_of(&response)
 }
 
-/// The camera that came of it.
+/// Shows the calibrated camera.
 fn camera(screen: &mut Screen<'_>, found: &Calibration, all_marks: &mut bool, ui: &mut Ui) {
     let project = screen.project;
     ui.horizontal_wrapped(|ui| {
@@ -160,7 +160,7 @@ fn camera(screen: &mut Screen<'_>, found: &Calibration, all_marks: &mut bool, ui
     errors(screen, found, ui);
 }
 
-/// The error of each photograph as a bar; a click looks at it.
+/// Draws the error of each photograph as a bar; a click selects the photograph.
 fn errors(screen: &mut Screen<'_>, found: &Calibration, ui: &mut Ui) {
     let project = screen.project;
     let errors = found.views.iter().flatten().map(|view| view.rms_px);
@@ -197,7 +197,7 @@ fn errors(screen: &mut Screen<'_>, found: &Calibration, ui: &mut Ui) {
     }
 }
 
-/// The photograph that is looked at.
+/// Shows the selected photograph.
 fn one(screen: &mut Screen<'_>, ui: &mut Ui, given: &InputPhoto) {
     let project = screen.project;
     ui.strong(&given.name);

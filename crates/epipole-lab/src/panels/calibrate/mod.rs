@@ -1,4 +1,4 @@
-//! A camera from photographs of a board: where its marks are, and how sure the camera is.
+//! Calibration from photographs of a board: detected marks, and the uncertainty of the camera.
 
 use crate::project::InputPhoto;
 use crate::session::{BoardOutcome, Event};
@@ -10,7 +10,7 @@ use super::widgets::{controls, look, photo};
 use egui::{Rect, ScrollArea, Sense, Shape, Stroke, Ui, vec2};
 use epipole_canvas::theme::{Role, Theme};
 
-/// Width of a small picture, points.
+/// Width of a thumbnail, points.
 const SMALL: f32 = 112.0;
 
 /// Panel of the step "Calibrate".
@@ -76,7 +76,7 @@ impl Calibrate {
                 same.flat_map(|other| other.marks.iter().flatten().map(|mark| at(other, *mark)));
             shown.add(dots.map(|at| Shape::circle_filled(at, 2.0, dot)).collect());
         }
-        // Along the rows, so that the order of the marks is seen.
+        // Along the rows, to show the order of the marks.
         let mut before = None;
         for mark in found.marks.iter().flatten() {
             let here = at(found, *mark);

@@ -15,16 +15,16 @@ use std::time::Duration;
 /// Meaning of a point's color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Coloring {
-    /// The photographs.
+    /// Colors of the photographs.
     #[default]
     Photographs,
-    /// Its reprojection error.
+    /// Reprojection error.
     Error,
-    /// In how many photographs it is seen.
+    /// Track length: number of photographs that see it.
     Track,
 }
 
-/// Inputs of the current scene; a change rebuilds it.
+/// Inputs of the current scene; it is rebuilt when they change.
 #[derive(Clone, PartialEq)]
 struct Made {
     key: Key,
@@ -33,7 +33,7 @@ struct Made {
     theme: Theme,
     /// Number of photographs shown in their frusta.
     photographs: usize,
-    /// Whether points that photographs share are shown.
+    /// Whether sparse points are shown.
     sparse: bool,
     /// Whether the surface of all views is shown.
     surface: bool,
@@ -43,7 +43,7 @@ struct Made {
     floor: Option<Floor>,
 }
 
-/// Inputs of the last frame; a change redraws it.
+/// Inputs of the last frame; it is redrawn when they change.
 #[derive(Clone, PartialEq)]
 struct Drawn {
     orbit: Orbit,
@@ -55,23 +55,23 @@ struct Drawn {
 /// View state of a reconstruction.
 pub(crate) struct CloudView {
     pub(crate) coloring: Coloring,
-    /// Whether frusta carry their photographs.
+    /// Whether frusta show their photographs.
     pub(crate) photographs: bool,
-    /// Whether points that photographs share are shown beside dense ones.
+    /// Whether sparse points are shown beside dense ones.
     pub(crate) sparse: bool,
     /// Whether the surface of all views is shown in place of their points.
     pub(crate) surface: bool,
-    /// The point that was clicked.
+    /// Selected point.
     pub(crate) point: Option<usize>,
     made: Option<Made>,
     orbit: Option<Orbit>,
     scene: Scene,
-    /// Number of points of the scene that photographs share; dense ones follow.
+    /// Number of sparse points of the scene; dense ones follow.
     num_shared: usize,
     num_fixed_lines: usize,
     frame: Frame,
     texture: Option<TextureHandle>,
-    /// Until when it counts as moving, seconds.
+    /// Time until which it counts as moving, seconds.
     moves_until: f64,
     drawn: Option<Drawn>,
 }
@@ -97,13 +97,13 @@ impl Default for CloudView {
     }
 }
 
-/// Maximum numbers of points and of pixels in a frame during motion: it must be ready for the next
+/// Maximum number of points drawn during motion, then of pixels: a frame must be ready for the next
 /// refresh of the screen.
 const MAX_MOVING: usize = 100_000;
 const MAX_MOVING_PIXELS: usize = 200_000;
 
-/// Time without change after which motion counts as ended, seconds: a dragging hand pauses between
-/// frames now and then, and each pause would draw all points.
+/// Time without change after which motion counts as ended, seconds. A dragging hand sometimes
+/// pauses between frames, and each pause would otherwise draw all points.
 const REST_S: f64 = 0.15;
 
 /// Divisor of the frame's width and height during motion.
@@ -112,7 +112,7 @@ fn coarseness((width, height): (usize, usize)) -> usize {
     (libm::ceil(libm::sqrt(over)) as usize).clamp(1, 4)
 }
 
-/// The side of a point on the screen: the fewer there are, the larger.
+/// Returns the side of a point on the screen, larger for fewer points.
 fn size_of(num_points: usize) -> f64 {
     match num_points {
         0..10_000 => 3.0,
@@ -122,8 +122,7 @@ fn size_of(num_points: usize) -> f64 {
 }
 
 impl CloudView {
-    /// Shows the part that is looked at. Returns what was clicked, if anything was; a click by key
-    /// is in the middle.
+    /// Shows the current component. Returns the clicked point, if any; a key clicks in the middle.
     pub(crate) fn show(&mut self, project: &Project, ui: &mut Ui, rect: Rect) -> Option<Click> {
         let shown = project.component().or(project.growing());
         let (Some(component), Some(key)) = (shown, ReconstructionOfAll.key(project)) else {
@@ -187,7 +186,7 @@ impl CloudView {
         Some(clicked)
     }
 
-    /// Position of a place of the reconstruction on the screen.
+    /// Returns the position on the screen of a point of the reconstruction.
     pub(crate) fn place_of(&self, place: nalgebra::Point3<f64>, rect: Rect) -> Option<egui::Pos2> {
         let (width, height) = self.frame.size();
         let place = place.map(|x| x as f32).into();
@@ -204,7 +203,7 @@ impl CloudView {
         is_drawn.then(|| (width as u32, rgba.to_vec().into()))
     }
 
-    /// Looks at everything again.
+    /// Resets the view to show everything.
     pub(crate) fn look_at_all(&mut self) {
         self.made = None;
         self.orbit = None;
@@ -236,7 +235,7 @@ impl CloudView {
                 == (made.key, made.component, made.growing)
                 && before.floor == made.floor
         });
-        // While it grows it is seen from the same side.
+        // A growing reconstruction keeps its viewing direction.
         let side = (self.made.as_ref())
             .filter(|before| before.growing.is_some() && before.key == made.key)
             .and(self.orbit);

@@ -6,12 +6,12 @@ use crate::project::{Project, Settings, Step};
 use crate::session::Event;
 use egui::{Response, Slider, Ui};
 
-/// Change by a control.
+/// Change of a value by a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Change {
     /// Unchanged.
     No,
-    /// Being dragged, so nothing is recomputed yet.
+    /// Being dragged; nothing is recomputed yet.
     Dragged,
     /// New value.
     Done,
@@ -23,7 +23,7 @@ impl From<bool> for Change {
     }
 }
 
-/// Change by a field that is dragged or typed into.
+/// Returns the change by a field that is dragged or typed into.
 pub(crate) fn change_of(response: &Response) -> Change {
     match response.dragged() {
         true => Change::Dragged,
@@ -42,14 +42,14 @@ pub(crate) fn edit(screen: &mut Screen<'_>, show: impl FnOnce(&mut Settings) -> 
     }
 }
 
-/// A slider with its name above it.
+/// Shows a slider with its name above it.
 pub(crate) fn slider(ui: &mut Ui, name: &str, slider: Slider<'_>) -> Change {
     let label = ui.label(name);
     let response = ui.add(slider).labelled_by(label.id);
     change_of(&response)
 }
 
-/// Draws a text in place of an image: in the middle, with a margin.
+/// Shows a text in place of an image: centered, with a margin.
 pub(crate) fn instead(ui: &mut Ui, words: &str) {
     let whole = ui.available_rect_before_wrap();
     let width = (whole.width() - 32.0).clamp(1.0, 460.0);
@@ -67,7 +67,7 @@ pub(crate) fn instead(ui: &mut Ui, words: &str) {
         .galley(egui::pos2(rect.center().x, top), text, color);
 }
 
-/// A line of a table: a name and a value.
+/// Shows a table row: a name and a value.
 pub(crate) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
     ui.horizontal_wrapped(|ui| {
         ui.weak(format!("{name}:"));
@@ -75,7 +75,7 @@ pub(crate) fn row(ui: &mut Ui, name: &str, value: impl Into<String>) {
     });
 }
 
-/// A link to the chapter that explains the step; a window has no book beside it.
+/// Shows a link to the chapter that explains the step. A window has no book.
 pub(crate) fn book(ui: &mut Ui, step: Step) {
     if cfg!(target_arch = "wasm32") {
         let chapter = step.explanation();
@@ -89,7 +89,7 @@ pub(crate) fn book(ui: &mut Ui, step: Step) {
     }
 }
 
-/// Shows a list to choose from. Returns the entry that was clicked.
+/// Shows a drop-down list. Returns the clicked entry.
 pub(crate) fn choose<T: Copy + PartialEq>(
     ui: &mut Ui,
     name: &str,
@@ -101,7 +101,7 @@ pub(crate) fn choose<T: Copy + PartialEq>(
     let mut chosen = None;
     ui.horizontal(|ui| {
         let label = ui.label(name);
-        // On a phone there is less room than it would like.
+        // A phone has less room than the default width.
         let combo = egui::ComboBox::from_id_salt(name)
             .selected_text(text)
             .truncate()
@@ -120,7 +120,7 @@ pub(crate) fn choose<T: Copy + PartialEq>(
     chosen
 }
 
-/// Shows the photographs to choose from, but for one. Returns the one that was clicked.
+/// Shows a drop-down list of the photographs except for one. Returns the clicked one.
 pub(crate) fn choose_photograph(
     project: &Project,
     ui: &mut Ui,
@@ -134,7 +134,7 @@ pub(crate) fn choose_photograph(
     choose(ui, name, current, &entries)
 }
 
-/// Shows both photographs of a pair to choose from. True if another pair was chosen.
+/// Shows drop-down lists for both photographs of a pair. True if another pair was chosen.
 pub(crate) fn choose_pair(screen: &mut Screen<'_>, ui: &mut Ui) -> bool {
     let project = screen.project;
     let (a, b) = project.view().pair;

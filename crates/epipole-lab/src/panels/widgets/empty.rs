@@ -1,4 +1,4 @@
-//! An empty project: a place to drop photographs at, and samples.
+//! Panel of an empty project: a drop area for photographs, and samples.
 
 use super::look;
 use crate::panels::screen::{Action, Screen};
@@ -12,7 +12,7 @@ const SAMPLES: [Sample; 3] = [Sample::Table, Sample::Upright, Sample::Plane];
 /// Length of a dash and of a gap, points.
 const DASH: f32 = 7.0;
 
-/// Draws the place to drop photographs at.
+/// Draws the drop area for photographs.
 pub(crate) fn show(screen: &mut Screen<'_>, ui: &mut Ui) {
     let whole = ui.available_rect_before_wrap();
     let zone = whole.shrink(16.0_f32.min(whole.width() / 8.0));

@@ -1,10 +1,10 @@
-//! Font and colors: those of the figures.
+//! Font and colors, the same as in the figures.
 
 use egui::{Color32, FontData, FontDefinitions, FontFamily, FontId, Stroke, TextStyle, Visuals};
 use epipole_canvas::theme::{Role, Theme};
 use std::sync::Arc;
 
-/// Sets font, sizes and colors, once.
+/// Sets font, sizes and colors. Called once.
 pub(crate) fn set(context: &egui::Context) {
     let mut fonts = FontDefinitions::empty();
     let name = "Epipole Figure Sans".to_owned();
@@ -67,8 +67,8 @@ fn visuals(theme: Theme) -> Visuals {
         widget.fg_stroke.color = role(Role::Ink);
     }
     visuals.widgets.noninteractive.bg_stroke.color = role(Role::Edge);
-    // An outline marks clickable items, also an empty box on the paper behind it. All have the same
-    // width, so that nothing moves under the pointer.
+    // An outline marks clickable items; without it, an empty box would not be visible. All have the
+    // same width, so that nothing moves under the pointer.
     visuals.widgets.inactive.bg_stroke = Stroke::new(1.0, role(Role::Muted));
     visuals.widgets.hovered.bg_stroke = Stroke::new(1.0, role(Role::Ink));
     visuals.widgets.active.bg_stroke = Stroke::new(1.0, role(Role::Best));
@@ -80,7 +80,7 @@ fn is_high() -> egui::Id {
     egui::Id::unique("high contrast")
 }
 
-/// Puts a theme on, by its permanent name; one that is not known is that of the system.
+/// Applies a theme by its name; any unknown name is the theme of the system.
 pub(crate) fn set_theme(context: &egui::Context, name: &str) {
     let known = Theme::ALL.into_iter().find(|(_, other)| *other == name);
     let theme = known.map(|(theme, _)| theme);
@@ -88,7 +88,7 @@ pub(crate) fn set_theme(context: &egui::Context, name: &str) {
         Some(Theme::HighContrast) => Theme::HighContrast,
         _ => Theme::Dark,
     };
-    // The toolkit knows two themes; this one takes the place of the dark one.
+    // The toolkit knows only a light and a dark theme; high contrast replaces the dark one.
     context.set_visuals_of(egui::Theme::Dark, visuals(is_dark));
     context.set_theme(match theme {
         Some(Theme::Light) => egui::ThemePreference::Light,
@@ -98,7 +98,7 @@ pub(crate) fn set_theme(context: &egui::Context, name: &str) {
     context.data_mut(|data| data.insert_temp(is_high(), theme == Some(Theme::HighContrast)));
 }
 
-/// The theme that is on.
+/// Returns the current theme.
 pub(crate) fn theme(ui: &egui::Ui) -> Theme {
     let is_high = ui
         .ctx()
@@ -110,13 +110,13 @@ pub(crate) fn theme(ui: &egui::Ui) -> Theme {
     }
 }
 
-/// The color of a role.
+/// Returns the color of a role in a theme.
 pub(crate) fn of(theme: Theme, role: Role) -> Color32 {
     let [r, g, b] = theme.color(role);
     Color32::from_rgb(r, g, b)
 }
 
-/// The color of a role in the theme that is on.
+/// Returns the color of a role in the current theme.
 pub(crate) fn color(ui: &egui::Ui, role: Role) -> Color32 {
     of(theme(ui), role)
 }

@@ -1,11 +1,11 @@
-//! Marks besides the points: cameras, the rays of one point, and its observations.
+//! Additions to the points: cameras, viewing rays and observations of a point, dense points.
 
 use crate::project::{Anchor, DensePixel, Key, Project};
 use crate::tasks::{CameraFound, Component, Dense, DenseCloud, FeaturesOf, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture, Scene};
 use std::sync::Arc;
 
-/// The edges of a camera's view, so far out.
+/// Draws the edges of a camera's frustum up to a distance.
 pub(crate) fn frustum(
     lines: &mut Vec<Line>,
     camera: &CameraFound,
@@ -33,7 +33,7 @@ pub(crate) fn frustum(
     }
 }
 
-/// The pixels of a photograph where its camera's frustum ends.
+/// Places a photograph at the far end of its camera's frustum.
 pub(crate) fn standing(
     camera: &CameraFound,
     (width, height): (u32, u32),
@@ -56,7 +56,7 @@ fn plain(place: &nalgebra::Point3<f64>) -> [f32; 3] {
     [place.x as f32, place.y as f32, place.z as f32]
 }
 
-/// From a point to all cameras that see it.
+/// Draws lines from a point to all cameras that see it.
 pub(crate) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, color: [u8; 3]) {
     let Some(point) = component.points.get(point) else {
         return;
@@ -72,7 +72,7 @@ pub(crate) fn rays(lines: &mut Vec<Line>, component: &Component, point: usize, c
     }
 }
 
-/// Observations of a point: photograph, keypoint, and reprojection error in pixels.
+/// Returns the observations of a point: photograph, keypoint, and reprojection error in pixels.
 pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64; 2], f64)> {
     let (Some(component), photos) = (project.component(), project.taking_part()) else {
         return Vec::new();
@@ -92,7 +92,7 @@ pub(crate) fn observations(project: &Project, point: usize) -> Vec<(String, [f64
     point.track.iter().filter_map(sight).collect()
 }
 
-/// Maximum number of points shown from the depth of all views, and from that of all pairs.
+/// Maximum number of points shown from the depth of all views, and the same from that of all pairs.
 const MAX_DENSE: usize = 1_000_000;
 
 /// Whether dense points are shown.
@@ -100,27 +100,27 @@ pub(crate) fn has_dense(project: &Project) -> bool {
     !dense_keys(project).is_empty()
 }
 
-/// Keys of the depth that is shown.
+/// Returns the keys of the shown depth.
 pub(super) fn dense_keys(project: &Project) -> Vec<Key> {
     let pairs = project.dense_pairs().into_iter().map(|(key, ..)| key);
     let all_views = project.all_views().map(|(key, _)| key);
     all_views.into_iter().chain(pairs).collect()
 }
 
-/// Whether the surface of all views is shown: if it is wanted and has triangles.
+/// Whether the surface of all views is shown: it is selected and has triangles.
 fn shows_surface(project: &Project, is_wanted: bool) -> bool {
     let cloud = project.all_views().filter(|_| is_wanted);
     cloud.is_some_and(|(_, cloud)| !cloud.triangles.is_empty())
 }
 
-/// The cloud of all views, its key, and the step from one shown point to the next.
+/// Returns the cloud of all views, its key, and the stride of its shown points.
 fn shown_cloud(project: &Project) -> Option<(Key, &DenseCloud, usize)> {
     let (key, cloud) = project.all_views()?;
     Some((key, cloud, cloud.len().div_ceil(MAX_DENSE).max(1)))
 }
 
-/// Number of pixels of pairs with dense depth, and the step along rows and columns from one that is
-/// shown to the next.
+/// Returns the number of pixels of pairs with dense depth, and the stride of shown ones along rows
+/// and columns.
 fn shown_pixels(project: &Project) -> (f64, u32) {
     let all: f64 = (project.dense_pairs().iter())
         .map(|(.., pair)| f64::from(pair.num_shown) * pair.density)
@@ -129,15 +129,15 @@ fn shown_pixels(project: &Project) -> (f64, u32) {
     (all, every as u32)
 }
 
-/// The anchor of a vertex of the surface.
+/// Returns the anchor of a vertex of the surface.
 pub(crate) fn vertex_anchor(project: &Project, vertex: usize) -> Option<Anchor> {
     let (key, cloud) = project.all_views()?;
     project.anchor_of_cloud(key, (cloud.len() + vertex) as u32)
 }
 
-/// The anchor of a shown dense point, counted from the first one.
+/// Returns the anchor of a shown dense point, counted from the first one.
 ///
-/// * `as_surface`: whether the surface is wanted, not the points of all views
+/// * `as_surface`: whether the surface is selected, not the points of all views
 pub(crate) fn dense_anchor(project: &Project, index: usize, as_surface: bool) -> Option<Anchor> {
     let as_surface = shows_surface(project, as_surface);
     let num_fused = match shown_cloud(project).filter(|_| !as_surface) {
@@ -168,7 +168,7 @@ pub(crate) fn dense_anchor(project: &Project, index: usize, as_surface: bool) ->
     })
 }
 
-/// Adds dense points of all views and of pairs after those that photographs share.
+/// Adds dense points of all views and of pairs after the sparse points.
 ///
 /// * `as_surface`: whether to add the surface of all views in place of their points
 pub(crate) fn add_dense(scene: &mut Scene, project: &Project, as_surface: bool) {
@@ -181,7 +181,7 @@ pub(crate) fn add_dense(scene: &mut Scene, project: &Project, as_surface: bool) 
         points.extend(fused.map(|point| plain((point.position, point.color))));
     }
     let (all, every) = shown_pixels(project);
-    // At once: growing step by step would leave half as much again behind.
+    // Reserved at once: growth by doubling would waste up to half of the memory.
     points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
     for (.., pair) in project.dense_pairs() {
         points.extend(pair.points(every).map(plain));

@@ -1,16 +1,16 @@
-//! Menus that close once something is chosen, however it was chosen: the toolkit by itself closes
-//! them for a mouse, but not for a key or for assistive technology, whose next press on the menu
-//! would then close it instead of opening it.
+//! Menus that close after a choice by mouse, key or assistive technology. The toolkit closes them
+//! for a mouse only; the next activation of the button would then close the menu instead of opening
+//! it.
 
 use egui::{Button, Checkbox, InnerResponse, Ui, Widget};
 
-/// A button that opens a menu of what [`item`] and [`toggle`] show.
+/// Shows a button that opens a menu of [`item`] and [`toggle`].
 pub(crate) fn menu(ui: &mut Ui, title: &str, content: impl FnOnce(&mut Ui)) {
     let shown = ui.menu_button(title, |ui| offer(ui, content));
     go_on(ui, &shown);
 }
 
-/// Shows what can be chosen. True if a key has chosen.
+/// Shows the entries. True if one was chosen by a key.
 pub(crate) fn offer(ui: &mut Ui, content: impl FnOnce(&mut Ui)) -> bool {
     let focused = ui.memory(|memory| memory.focused());
     let focused = focused.and_then(|id| ui.ctx().read_response(id));
@@ -19,8 +19,8 @@ pub(crate) fn offer(ui: &mut Ui, content: impl FnOnce(&mut Ui)) -> bool {
     is_within && ui.will_parent_close()
 }
 
-/// Tells whether the menu is open. After a key has chosen, keys go on at the button of the menu,
-/// not at the begin of everything.
+/// Reports to assistive technology whether the menu is open. After a choice by key, returns the
+/// focus to the menu's button.
 pub(crate) fn go_on(ui: &Ui, shown: &InnerResponse<Option<bool>>) {
     let is_open = shown.inner.is_some();
     let tell = |node: &mut egui::accesskit::Node| node.set_expanded(is_open);
@@ -30,17 +30,17 @@ pub(crate) fn go_on(ui: &Ui, shown: &InnerResponse<Option<bool>>) {
     }
 }
 
-/// Something to choose. True in the frame in which it is chosen, which closes the menu.
+/// Shows an entry. True in the frame in which it is chosen, which closes the menu.
 pub(crate) fn item(ui: &mut Ui, words: &str) -> bool {
     chosen(ui, Button::new(words))
 }
 
-/// The same for something that is on or off.
+/// Shows an entry with a check box.
 pub(crate) fn toggle(ui: &mut Ui, is_on: &mut bool, words: &str) -> bool {
     chosen(ui, Checkbox::new(is_on, words))
 }
 
-/// The same for one of several, of which one is current.
+/// Shows an entry of a group, one of which is current.
 pub(crate) fn choice(ui: &mut Ui, is_current: bool, words: &str) -> bool {
     chosen(ui, Button::selectable(is_current, words))
 }

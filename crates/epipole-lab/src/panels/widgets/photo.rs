@@ -1,4 +1,4 @@
-//! A photograph in a rectangle, enlarged and moved by the reader, with marks on it.
+//! A photograph in a rectangle that can be zoomed and panned, with marks on it.
 
 use super::look;
 use super::strips::Strips;
@@ -24,7 +24,7 @@ const MAX_FULL: usize = 6;
 const MAX_SMALL: usize = 200;
 
 impl Pictures {
-    /// The photograph, as far as it is uploaded.
+    /// Returns the photograph, as far as it is uploaded.
     pub(crate) fn full(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> Strips {
         let size = [photograph.width as usize, photograph.height as usize];
         if !self.full.contains_key(&key) {
@@ -46,7 +46,7 @@ impl Pictures {
         picture
     }
 
-    /// The same, small.
+    /// Returns its thumbnail.
     pub(crate) fn small(&mut self, ui: &Ui, key: Name, photograph: &Photograph) -> &TextureHandle {
         if !self.small.contains_key(&key) && self.small.len() >= MAX_SMALL {
             self.small.clear();
@@ -65,9 +65,9 @@ impl Pictures {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Lens {
     zoom: f32,
-    /// Point of the photograph in the middle of the view, as a share of its size.
+    /// Point of the photograph in the middle of the view, relative to its size.
     middle: Vec2,
-    /// Crosshair, likewise.
+    /// Crosshair, relative to the size.
     cross: Vec2,
 }
 
@@ -88,12 +88,12 @@ pub(crate) struct Shown {
     /// Rectangle of the whole photograph on the screen.
     place: Rect,
     size: Vec2,
-    /// Point clicked with the crosshair by a key, as a share of the size.
+    /// Point clicked by a key with the crosshair, relative to the size.
     keyed: Option<Vec2>,
 }
 
 impl Shown {
-    /// Position of a pixel on the screen.
+    /// Converts a pixel to a position on the screen.
     pub(crate) fn at(&self, u: f64, v: f64) -> Pos2 {
         let share = vec2(
             (u as f32 + 0.5) / self.size.x,
@@ -102,7 +102,7 @@ impl Shown {
         self.place.min + share * self.place.size()
     }
 
-    /// Which pixel was clicked, by a pointer or by a key.
+    /// Returns the pixel clicked by pointer or key.
     pub(crate) fn clicked(&self) -> Option<[f64; 2]> {
         if !self.response.clicked() {
             return None;
@@ -120,12 +120,12 @@ impl Shown {
         })
     }
 
-    /// Screen points in a pixel.
+    /// Screen points per pixel.
     pub(crate) fn scale(&self) -> f32 {
         self.place.width() / self.size.x
     }
 
-    /// A circle with a casing, so that it is seen on anything.
+    /// Draws a circle with an outline that is visible on any background.
     pub(crate) fn ring(&self, center: Pos2, radius: f32, color: Color32) {
         self.painter.circle_stroke(
             center,
@@ -136,7 +136,7 @@ impl Shown {
             .circle_stroke(center, radius, Stroke::new(1.5, color));
     }
 
-    /// A line, likewise.
+    /// Draws a line in the same way.
     pub(crate) fn line(&self, from: Pos2, to: Pos2, color: Color32) {
         let casing = Stroke::new(3.5, Color32::from_black_alpha(120));
         self.painter.line_segment([from, to], casing);
@@ -144,12 +144,12 @@ impl Shown {
             .line_segment([from, to], Stroke::new(1.6, color));
     }
 
-    /// Many marks at once.
+    /// Draws many marks at once.
     pub(crate) fn add(&self, shapes: Vec<Shape>) {
         self.painter.extend(shapes);
     }
 
-    /// Whether a place of the screen is within the rectangle.
+    /// Whether a position on the screen is within the rectangle.
     pub(crate) fn shows(&self, at: Pos2) -> bool {
         self.response.rect.expand(20.0).contains(at)
     }
@@ -202,7 +202,7 @@ pub(crate) fn show(
             lens.zoom = (lens.zoom * libm::expf(0.3 * nearer)).clamp(1.0, 16.0);
             lens.middle = lens.cross;
         }
-        // The crosshair stays in sight.
+        // The crosshair stays visible.
         let half = 0.45 * rect.size() / (size * fit * lens.zoom);
         lens.middle = lens.middle.clamp(lens.cross - half, lens.cross + half);
     }
@@ -212,7 +212,7 @@ pub(crate) fn show(
     }
     let shown = size * fit * lens.zoom;
     for axis in 0..2 {
-        // The photograph stays in sight.
+        // The photograph stays visible.
         let half = (0.5 * rect.size()[axis] / shown[axis]).min(0.5);
         lens.middle[axis] = lens.middle[axis].clamp(half, 1.0 - half);
     }
@@ -253,8 +253,8 @@ pub(crate) fn show(
     shown
 }
 
-/// Moves the crosshair by the arrow keys while the photograph has the focus. Returns its place when
-/// a key clicks it.
+/// Moves the crosshair by the arrow keys while the photograph has the focus. Returns its position
+/// when a key clicks.
 fn crosshair(ui: &Ui, response: &Response, lens: &mut Lens, size: Vec2) -> Option<Vec2> {
     if !response.has_focus() {
         return None;
@@ -267,7 +267,7 @@ fn crosshair(ui: &Ui, response: &Response, lens: &mut Lens, size: Vec2) -> Optio
         false => Vec2::splat(0.02 / lens.zoom),
     };
     lens.cross = (lens.cross + vec2(right, down) * step).clamp(Vec2::ZERO, Vec2::splat(0.999_9));
-    // The arrows belong to the photograph while it has the focus.
+    // While the photograph has the focus, the arrow keys must not move the focus.
     let filter = egui::EventFilter {
         horizontal_arrows: true,
         vertical_arrows: true,

@@ -1,16 +1,16 @@
-//! The point of the space that a click chooses, by mouse, finger or key.
+//! Picking of a point in 3D by mouse, touch or key.
 
 use super::look;
 use egui::{Rect, Response, Ui};
 use epipole_canvas::cloud::{Frame, Orbit, Scene};
 use epipole_canvas::theme::Role;
 
-/// Result of a click on the space.
+/// Result of a click in the 3D view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Click {
     /// No point was near.
     Missed,
-    /// A point that photographs share, by index.
+    /// A sparse point, by index.
     Point(usize),
     /// A point of dense depth, counted from the first one.
     Dense(usize),
@@ -18,17 +18,16 @@ pub(crate) enum Click {
     Vertex(usize),
 }
 
-/// Reach of a mouse and of a finger, points.
+/// Maximum distance from the click for a mouse, points; then for touch.
 const REACH: f32 = 8.0;
 const REACH_OF_FINGER: f32 = 22.0;
-/// A point that photographs share lies behind dense ones of the same surface if it is at most this
-/// many times as far away.
+/// A sparse point behind dense ones lies on the same surface if it is at most this many times as
+/// far away.
 const SAME_DEPTH: f64 = 1.05;
 
-/// Returns the point that a click chooses; one by key is in the middle.
+/// Returns the clicked point; a key clicks in the middle.
 ///
-/// * `num_shared`: number of points of the scene that photographs share; dense ones follow, then
-///   vertices
+/// * `num_shared`: number of sparse points of the scene; dense ones follow, then vertices
 pub(super) fn pick(
     response: &Response,
     rect: Rect,
@@ -60,8 +59,8 @@ pub(super) fn pick(
     }
 }
 
-/// The point that photographs share nearest to a pixel, on the surface of a dense one that hides
-/// it: it is the more exact one.
+/// Finds the sparse point nearest to a pixel, on the surface of a dense point that hides it, since
+/// sparse points are more accurate.
 fn shared_at(
     [u, v]: [f64; 2],
     reach_px: f64,
@@ -89,7 +88,7 @@ fn shared_at(
     best.map(|(_, index)| index)
 }
 
-/// Draws the place that Enter chooses.
+/// Draws the crosshair at which Enter clicks.
 pub(super) fn crosshair(ui: &Ui, rect: Rect) {
     let stroke = egui::Stroke::new(1.5, look::color(ui, Role::Grip));
     let middle = rect.center();
@@ -107,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_shared_point_behind_its_own_surface_is_preferred() {
-        // One shared point, and dense ones in front of it: on its surface, then far before it.
+        // A sparse point, with dense ones in front of it: on its surface, then far in front.
         let shared = ([0.0, 0.0, 1.0], [255; 3]);
         let near = |z: f32| ([0.01, 0.0, z], [9; 3]);
         let corner = |x: f32| ([x, x, 1.0], [9; 3]);

@@ -46,7 +46,7 @@ pub(crate) fn steer(
         }
         let nearer = step(KeyName::Plus) + step(KeyName::Equals) - step(KeyName::Minus);
         orbit.zoom(libm::exp(0.15 * nearer));
-        // The arrows belong to the space while it has the focus.
+        // While the 3D view has the focus, the arrow keys must not move the focus.
         ui.memory_mut(|memory| {
             memory.set_focus_lock_filter(
                 response.id,
@@ -64,8 +64,8 @@ pub(crate) fn steer(
     *orbit != before
 }
 
-/// From the side of another view, or else from behind the cameras and a little aside; with all
-/// cameras in the image, and the points except for the outermost.
+/// Frames all cameras, and the points except for the outermost, in the direction of another view;
+/// without one, from behind the cameras and a little to the side.
 pub(crate) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
     const ASIDE_RAD: f64 = 0.35;
     let cameras = || component.cameras.iter().flatten();

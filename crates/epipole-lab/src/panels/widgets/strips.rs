@@ -1,4 +1,5 @@
-//! Uploads an image strip by strip: a whole photograph would delay the frame that first shows it.
+//! Uploads of an image strip by strip: a whole photograph would delay the frame that first shows
+//! it.
 
 use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, Ui, Vec2, pos2};
 use std::ops::Range;
@@ -11,16 +12,16 @@ const MAX_PIXELS: usize = 500_000;
 pub(crate) struct Strips {
     width: usize,
     height: usize,
-    /// Placeholder behind the strips that are not there yet.
+    /// Placeholder for missing strips.
     under: Option<TextureHandle>,
-    /// From the top, as many as have come.
+    /// Uploaded strips, from the top.
     textures: Vec<TextureHandle>,
 }
 
 impl Strips {
-    /// An image without any strip.
+    /// Creates an image without strips.
     ///
-    /// * `under`: its thumbnail, shown meanwhile
+    /// * `under`: its thumbnail, shown until all strips are uploaded
     pub(crate) fn new([width, height]: [usize; 2], under: Option<TextureHandle>) -> Self {
         Self {
             width,
@@ -40,14 +41,13 @@ impl Strips {
         self.rows(self.textures.len()).is_empty()
     }
 
-    /// The rows that a strip shows.
+    /// Rows that a strip shows.
     fn rows(&self, strip: usize) -> Range<usize> {
         let most = (MAX_PIXELS / self.width.max(1)).max(1);
         (strip * most).min(self.height)..((strip + 1) * most).min(self.height)
     }
 
-    /// The rows that its texture has: one beyond each side, so that pixels are mixed as if there
-    /// were no strips.
+    /// Rows of a strip's texture: one more at each side, so that interpolation has no seams.
     fn rows_of_texture(&self, strip: usize) -> Range<usize> {
         let Range { start, end } = self.rows(strip);
         start.saturating_sub(1)..(end + 1).min(self.height)

@@ -10,7 +10,7 @@ use epipole_canvas::theme::Role;
 /// Size of the title, points.
 const TITLE: f32 = 17.0;
 
-/// Draws the verdict; before there is one, a way to the growing reconstruction.
+/// Draws the verdict or, until there is one, a button to the growing reconstruction.
 pub(crate) fn show(screen: &mut Screen<'_>, ui: &mut Ui) {
     let project = screen.project;
     let known = screen
@@ -40,7 +40,7 @@ pub(crate) fn show(screen: &mut Screen<'_>, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
         for suggestion in project.suggestions(verdict) {
             match suggestion {
-                // Already there.
+                // The step is current already.
                 Suggestion::Send(_, events) if events == [Event::Show(step)] => {}
                 Suggestion::Send(label, events) => {
                     if ui.button(label).clicked() {

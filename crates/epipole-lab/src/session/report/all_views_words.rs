@@ -5,7 +5,7 @@ use crate::project::Project;
 use crate::tasks::{AllViews, ReconstructionOfAll};
 
 impl Project {
-    /// State of the depth of all views, in sentences.
+    /// Describes the state of the depth of all views, in sentences.
     pub fn all_views_words(&self) -> String {
         if self.component().is_none() {
             return match self.failure(ReconstructionOfAll) {
@@ -40,8 +40,8 @@ impl Project {
         words
     }
 
-    /// Maximum size of a photograph for the depth of all views, megapixels, if memory allows less
-    /// than the setting.
+    /// Returns the maximum size of a photograph for the depth of all views, megapixels, if memory
+    /// allows less than the setting.
     pub fn all_views_limit(&self) -> Option<f64> {
         let max_megapixels = f64::from(self.max_view_pixels()?) / 1e6;
         let wanted = self.document.settings.all_views.max_megapixels;

@@ -7,28 +7,28 @@ use crate::tasks::{BoardOf, PhotoFile};
 /// Outcome for a photograph of a board.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum BoardOutcome {
-    /// It is not known yet.
+    /// Not known yet.
     Pending,
-    /// The reader left it out.
+    /// Left out by the reader.
     Excluded,
-    /// It cannot be read.
+    /// Unreadable, with an error message.
     Unreadable(String),
-    /// The board was not found, and why.
+    /// The board was not found, with the reason.
     NotFound(String),
-    /// It is of this size, and most others are of another one.
+    /// Its size, and the different size of most others.
     OtherSize((u32, u32), (u32, u32)),
     /// Number of marks found.
     Found(usize),
 }
 
 impl Project {
-    /// Key of a board's image, for caches.
+    /// Key of a board's photograph, for texture caches.
     pub fn key_of_board(&self, photo: &InputPhoto) -> Key {
-        // Another board is looked for in the same pixels.
+        // Another board has the same pixels.
         Key::of(&("picture of a board", photo.content.0))
     }
 
-    /// Outcome for a photograph of a board.
+    /// Returns the outcome for a photograph of a board.
     pub fn board_outcome(&self, photo: &InputPhoto) -> BoardOutcome {
         if photo.excluded {
             return BoardOutcome::Excluded;
@@ -56,7 +56,7 @@ impl Project {
         }
     }
 
-    /// The photographs from files, with their sizes as far as they were read.
+    /// Returns the photographs from files, with their sizes as far as they were read.
     pub fn photo_files(&self) -> Vec<PhotoFile> {
         let photos = self.document.photos.iter();
         let files = photos.filter(|photo| matches!(photo.source, Source::File(_)));
@@ -67,8 +67,8 @@ impl Project {
         files.map(file).collect()
     }
 
-    /// The files among the photographs that have this size as the sensor gave them, as far as they
-    /// were read.
+    /// Returns the photographs from files with this size in the sensor's orientation, as far as
+    /// they were read.
     pub fn of_size(&self, size: (u32, u32)) -> Vec<&InputPhoto> {
         let is_file = |photo: &&InputPhoto| matches!(photo.source, Source::File(_));
         let fits = |photo: &&InputPhoto| {

@@ -1,5 +1,5 @@
-//! Boards and the calibrated camera in words, and as a file and a command for calibration
-//! elsewhere.
+//! Text about boards and the calibrated camera, and the camera as a file and a command for
+//! calibration elsewhere.
 
 use super::boards::BoardOutcome;
 use super::words::count;
@@ -7,7 +7,7 @@ use crate::project::{BoardPattern, InputPhoto, LensCamera, Project, Source};
 use crate::tasks::{Calibration, CalibrationOfBoards};
 
 impl Project {
-    /// Outcome for a photograph of a board in words, with advice.
+    /// Describes the outcome for a photograph of a board, with advice.
     pub fn board_words(&self, photo: &InputPhoto) -> String {
         match self.board_outcome(photo) {
             BoardOutcome::Pending => "being processed".to_owned(),
@@ -25,7 +25,7 @@ impl Project {
         }
     }
 
-    /// The root mean square of the errors in a photograph, pixels.
+    /// Returns the root mean square error in a photograph, pixels.
     pub fn view_of(&self, photo: &InputPhoto) -> Option<f64> {
         let place = self.place_of_board(photo)?;
         let views = &self.get(CalibrationOfBoards)?.views;
@@ -49,7 +49,7 @@ impl Project {
         words
     }
 
-    /// State of the calibration, with advice if it fails.
+    /// Describes the state of the calibration, with advice if it fails.
     pub fn calibrate_status(&self) -> String {
         let boards = &self.document.boards;
         if boards.is_empty() {
@@ -101,8 +101,8 @@ impl Project {
         words
     }
 
-    /// Reasons why the camera is less accurate than the errors suggest, one sentence each without
-    /// its period.
+    /// Lists reasons why the camera is less accurate than the errors suggest, as sentences without
+    /// a period.
     pub fn calibration_warnings(&self) -> Vec<String> {
         let Some(found) = self.get(CalibrationOfBoards) else {
             return Vec::new();
@@ -122,7 +122,7 @@ impl Project {
         found.warnings.iter().map(sentence).collect()
     }
 
-    /// Which photographs the camera is used for; nothing if it is not used.
+    /// Describes which photographs the camera is used for; empty if it is not used.
     pub fn use_words(&self) -> String {
         let Some(camera) = &self.document.camera else {
             return String::new();
@@ -154,7 +154,8 @@ impl Project {
         }
     }
 
-    /// Of the photographs that would be of the calibrated camera's size if they lay.
+    /// Describes the photographs that would have the calibrated camera's size in the other
+    /// orientation.
     fn upright_words(&self) -> String {
         let photos = self.document.photos.iter();
         let silent = photos
@@ -178,8 +179,8 @@ impl Project {
         is_file && width != height && pixels.sensor_size == (height, width)
     }
 
-    /// Why the calibrated camera is not used for a photograph; nothing if it is, or if there is
-    /// none.
+    /// Explains why the calibrated camera is not used for a photograph; empty if it is, or if there
+    /// is none.
     pub fn unused_camera_words(&self, photo: &InputPhoto) -> String {
         if self.known_image(photo).is_some() {
             return String::new();
@@ -202,8 +203,8 @@ impl Project {
         )
     }
 
-    /// The camera as `epipole calibrate -o` writes it, which `epipole undistort` reads; `None`
-    /// without one.
+    /// Returns the camera as written by `epipole calibrate -o` and read by `epipole undistort`;
+    /// `None` without one.
     pub fn camera_json(&self) -> Option<String> {
         let found = self.get(CalibrationOfBoards)?;
         let std_dev = [&found.std_dev_k[..], &found.std_dev_lens].concat();
@@ -216,7 +217,7 @@ impl Project {
         ))
     }
 
-    /// The command that calibrates in the same way.
+    /// Returns the equivalent command of `epipole calibrate`.
     pub fn calibrate_command(&self) -> String {
         let options = self.document.settings.calibration;
         let pattern = match options.board.pattern {
@@ -233,13 +234,13 @@ impl Project {
     }
 }
 
-/// Numbers as JSON, and as Rust, has them.
+/// Formats numbers as a list in JSON and Rust.
 pub(super) fn listed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
     format!("[{}]", numbers.join(", "))
 }
 
-/// JSON fields of a camera that `epipole undistort` and `epipole sfm` read.
+/// Formats the fields of a camera in JSON, as read by `epipole undistort` and `epipole sfm`.
 pub(super) fn camera_fields(camera: &LensCamera) -> String {
     let (width, height) = camera.size;
     format!(

@@ -4,13 +4,14 @@ use crate::project::{InputPhoto, Outcome, Project};
 use crate::tasks::{Export, ExportFormat, Measured, Packed, ReconstructionOfAll};
 
 impl Project {
-    /// Whether there is a reconstruction to save, and all of its photographs.
+    /// Whether a reconstruction and all of its photographs are available.
     pub fn can_export(&self) -> bool {
         let mut photos = self.taking_part().into_iter();
         self.component().is_some() && photos.all(|photo| self.shown(photo).is_some())
     }
 
-    /// The task that writes the zip file of the current component; `None` without a reconstruction.
+    /// Returns the task that writes the zip file of the current component; `None` without a
+    /// reconstruction.
     pub fn export_request(&self, format: ExportFormat) -> Option<Export> {
         let found = self.get(ReconstructionOfAll)?;
         found.components.get(self.view.component)?;
@@ -54,7 +55,7 @@ impl Project {
 }
 
 impl Project {
-    /// A measure as the files have it; `None` if one of its ends is gone.
+    /// Converts a measure for the files; `None` if one of its ends no longer exists.
     fn measured(&self, index: usize) -> Option<Measured> {
         let measure = self.document.measures.get(index)?;
         let [first, second] = &measure.ends;
@@ -71,7 +72,7 @@ impl Project {
     }
 }
 
-/// A pair's name in files: those of both photographs without their endings.
+/// Names a pair in files: the names of both photographs without extensions.
 fn pair_name(first: &InputPhoto, second: &InputPhoto) -> String {
     let stem = |name: &str| {
         name.rsplit_once('.')

@@ -1,4 +1,4 @@
-//! The floor that three points set: which way is up, and how high anything is.
+//! Floor plane through three points: the up direction, and heights above it.
 
 use crate::project::{Anchor, Project};
 use nalgebra::{Point3, Vector3};
@@ -10,14 +10,15 @@ const LEAST_SINE: f64 = 0.02;
 /// A plane in the frame of the reconstruction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Floor {
-    /// A point of it.
+    /// Point on it.
     pub origin: Point3<f64>,
-    /// Its unit normal, towards the cameras.
+    /// Unit normal, towards the cameras.
     pub up: Vector3<f64>,
 }
 
 impl Project {
-    /// The floor, if three points were chosen, are in the current component, and are not on a line.
+    /// Returns the floor, if three points were chosen, are in the current component, and are not
+    /// collinear.
     pub fn floor(&self) -> Option<Floor> {
         let component = self.component()?;
         let mut corners = [Point3::origin(); 3];
@@ -46,7 +47,7 @@ impl Project {
         Some((self.anchored(anchor)? - floor.origin).dot(&floor.up))
     }
 
-    /// The same for people; nothing without a floor.
+    /// Formats the height of an anchor; empty without a floor.
     pub fn height_words(&self, anchor: &Anchor) -> String {
         let Some(height) = self.height_in_units(anchor) else {
             return String::new();
@@ -57,7 +58,7 @@ impl Project {
         }
     }
 
-    /// State of the floor in words.
+    /// Describes the state of the floor.
     pub fn floor_words(&self) -> &'static str {
         match (self.document.floor.is_some(), self.floor().is_some()) {
             (false, _) => "",

@@ -1,15 +1,15 @@
-//! Known poses in words.
+//! Text about known poses.
 
 use super::words::count;
 use crate::project::{InputPhoto, Project};
 use crate::tasks::ReconstructionOfAll;
 
-/// Largest mean error of points of right poses, pixels. Those of wrong matches have about half of
-/// the 4 pixels that the reconstruction keeps.
+/// Maximum mean error of points for correct poses, pixels. Wrong matches give about half of the 4
+/// pixels that the reconstruction accepts.
 const MAX_MEAN_ERROR_PX: f64 = 1.2;
 
 impl Project {
-    /// Source of the cameras, in a sentence; nothing if they are found.
+    /// Describes the source of the cameras; empty if they are estimated.
     pub fn poses_words(&self) -> String {
         let Some(poses) = &self.document.poses else {
             return String::new();
@@ -33,7 +33,7 @@ impl Project {
         words
     }
 
-    /// Why a photograph has no known pose.
+    /// Explains why a photograph has no known pose.
     pub(super) fn no_pose_words(&self, photo: &InputPhoto) -> String {
         let file = (self.document.poses.as_ref()).map_or("", |poses| &poses.file);
         let (Some(image), Some(pixels)) = (self.known_image(photo), self.shown(photo)) else {

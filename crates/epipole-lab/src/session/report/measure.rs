@@ -1,10 +1,10 @@
-//! Lengths between points, how sure they are, and the scale that a known one sets.
+//! Lengths between points, their uncertainty, and the scale set by a known length.
 
 use crate::project::{Anchor, CloudPoint, DensePixel, Key, Measure, PhotoId, Project};
 use crate::tasks::{CameraFound, CloudVertex, Component, Dense, DenseCloud, DepthOf};
 use nalgebra::{Matrix2x3, Matrix3, Point3, Vector3};
 
-/// A length, one standard deviation beside it.
+/// A length with its standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Length {
     /// The length.
@@ -18,14 +18,14 @@ pub struct Length {
 pub struct Scale {
     /// Meters in a unit.
     pub meters_per_unit: f64,
-    /// Its standard deviation, as a share.
+    /// Its relative standard deviation.
     pub relative_sigma: f64,
-    /// Which measure sets it.
+    /// Index of the measure that sets it.
     pub measure: usize,
 }
 
 impl Project {
-    /// Position of an anchor in the component that is looked at; `None` if it is gone.
+    /// Returns the position of an anchor in the current component; `None` if it no longer exists.
     pub fn anchored(&self, anchor: &Anchor) -> Option<Point3<f64>> {
         match (anchor.cloud, anchor.pixel) {
             (Some(point), _) => Some(self.cloud_of(point)?.point(point.index)?.position.into()),
@@ -37,7 +37,7 @@ impl Project {
         }
     }
 
-    /// The sparse point of an anchor at a keypoint.
+    /// Returns the sparse point of an anchor at a keypoint.
     fn anchored_point(&self, anchor: &Anchor) -> Option<usize> {
         let image = self.place(anchor.photo)? as u32;
         let points = &self.component()?.points;
@@ -45,14 +45,14 @@ impl Project {
         points.iter().position(|point| sees(&point.track))
     }
 
-    /// The dense depth that an anchor needs, if it is part of the cloud.
+    /// Returns the dense depth that an anchor needs, if it is part of the cloud.
     fn dense_of(&self, first: PhotoId, pixel: DensePixel) -> Option<&Dense> {
         let pair = (first, pixel.second);
         let query = DepthOf(pair.0, pair.1);
         self.get(query).filter(|_| self.document.is_dense(pair))
     }
 
-    /// The cloud of a point, if it is shown.
+    /// Returns the cloud of a point, if it is shown.
     fn cloud_of(&self, point: CloudPoint) -> Option<&DenseCloud> {
         let (key, cloud) = self.all_views()?;
         (key.0 == point.cloud).then_some(cloud)
@@ -72,7 +72,7 @@ impl Project {
         }
     }
 
-    /// An anchor for a point of the part that is looked at.
+    /// Returns an anchor for a point of the current component.
     pub fn anchor_of(&self, point: usize) -> Option<Anchor> {
         let (image, keypoint) = *self.component()?.points.get(point)?.track.first()?;
         let photo = self.taking_part().get(image as usize)?.id;
@@ -84,7 +84,7 @@ impl Project {
         })
     }
 
-    /// An anchor for a point of the cloud of all views.
+    /// Returns an anchor for a point of the cloud of all views.
     ///
     /// * `cloud`: key of the cloud
     pub fn anchor_of_cloud(&self, cloud: Key, index: u32) -> Option<Anchor> {
@@ -102,7 +102,8 @@ impl Project {
         })
     }
 
-    /// The length of a measure in units of the reconstruction; `None` if a point is gone.
+    /// Returns the length of a measure in units of the reconstruction; `None` if a point no longer
+    /// exists.
     pub fn length_in_units(&self, measure: &Measure) -> Option<Length> {
         let [first, second] = &measure.ends;
         let between = self.anchored(second)? - self.anchored(first)?;
@@ -121,7 +122,7 @@ impl Project {
         })
     }
 
-    /// The scale that the first measure of known length sets.
+    /// Returns the scale set by the first measure of known length.
     pub fn scale(&self) -> Option<Scale> {
         let mut measures = self.document.measures.iter().enumerate();
         measures.find_map(|(index, measure)| {
@@ -134,7 +135,7 @@ impl Project {
         })
     }
 
-    /// The length of a measure in meters, as the scale has it; exact for the one that sets it.
+    /// Returns the length of a measure in meters by the scale; exact for the one that sets it.
     pub fn length_in_meters(&self, index: usize) -> Option<Length> {
         let scale = self.scale()?;
         let measure = self.document.measures.get(index)?;
@@ -152,8 +153,8 @@ impl Project {
     }
 }
 
-/// The standard deviation of a keypoint in each direction, from all reprojection errors: two
-/// numbers an observation, less three a point and six a camera.
+/// Estimates the standard deviation of a keypoint in each direction from all reprojection errors:
+/// two degrees of freedom per observation, less three per point and six per camera.
 fn noise_px(component: &Component) -> f64 {
     let (mut sum_sq, mut count) = (0.0, 0.0);
     for point in &component.points {
@@ -165,16 +166,16 @@ fn noise_px(component: &Component) -> f64 {
     libm::sqrt(sum_sq / freedom.max(1.0))
 }
 
-/// Standard deviation of a disparity that matching found, pixels.
+/// Standard deviation of a disparity, pixels.
 const DISPARITY_SIGMA_PX: f64 = 0.5;
 
-/// Position of a pixel with dense depth.
+/// Returns the position of a pixel with dense depth.
 fn dense_place(pair: &Dense, [u, v]: [u32; 2]) -> Option<Point3<f64>> {
     let ray = pair.camera.ray([f64::from(u), f64::from(v)]);
     Some(pair.camera.center() + ray * pair.depth(u, v)?)
 }
 
-/// Covariance of the position of a pixel with dense depth, for fixed cameras:
+/// Returns the covariance of the position of a pixel with dense depth, for fixed cameras:
 /// `σ_Z = Z² σ_d / (f B)` along the ray, and the width of the pixel across it.
 fn dense_covariance(pair: &Dense, [u, v]: [u32; 2]) -> Option<Matrix3<f64>> {
     let ray = pair.camera.ray([f64::from(u), f64::from(v)]);
@@ -187,8 +188,8 @@ fn dense_covariance(pair: &Dense, [u, v]: [u32; 2]) -> Option<Matrix3<f64>> {
     Some(covariance)
 }
 
-/// Covariance of a point of the cloud of all views for fixed cameras. As many cameras as agree on
-/// it count, those that its surface faces most.
+/// Returns the covariance of a point of the cloud of all views for fixed cameras. It counts as many
+/// cameras as agree on the point, those that its surface faces most.
 fn cloud_covariance(
     component: &Component,
     cloud: &DenseCloud,
@@ -202,7 +203,7 @@ fn cloud_covariance(
     covariance_from(&cameras, &position, DISPARITY_SIGMA_PX * cloud.pixel_px)
 }
 
-/// Covariance of a point that photographs share for fixed cameras.
+/// Returns the covariance of a sparse point for fixed cameras.
 fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matrix3<f64>> {
     let point = component.points.get(point)?;
     let camera = |&(image, _): &(u32, u32)| component.cameras.get(image as usize)?.as_ref();
@@ -210,7 +211,7 @@ fn covariance(component: &Component, point: usize, noise_px: f64) -> Option<Matr
     covariance_from(&cameras?, &point.position.into(), noise_px)
 }
 
-/// Covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
+/// Returns the covariance of a point for fixed cameras: `σ² (Σ JᵀJ)⁻¹`.
 fn covariance_from(
     cameras: &[&CameraFound],
     position: &Point3<f64>,
@@ -228,7 +229,7 @@ fn covariance_from(
         .then_some(covariance)
 }
 
-/// Derivative of the pixel by the point, without lens distortion.
+/// Returns the derivative of the pixel by the point, without lens distortion.
 fn jacobian(camera: &CameraFound, position: &Point3<f64>) -> Option<Matrix2x3<f64>> {
     let (rotation, in_cam) = camera.transform(position);
     if in_cam.z <= 0.0 {

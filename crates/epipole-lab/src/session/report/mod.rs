@@ -1,5 +1,4 @@
-//! Facts about the project, and its description in words: outcomes of photographs, measures,
-//! recipes.
+//! Facts and texts about the project: outcomes of photographs, measures, recipes.
 
 mod all_views_words;
 mod boards;

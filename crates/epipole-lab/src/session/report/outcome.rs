@@ -8,7 +8,7 @@ use crate::tasks::{
 use std::collections::BTreeMap;
 
 impl Project {
-    /// Outcome for a photograph.
+    /// Returns the outcome for a photograph.
     pub fn outcome(&self, photo: &InputPhoto) -> Outcome {
         let mut cached = self.outcomes.borrow_mut();
         if cached.0 != self.revision {
@@ -61,8 +61,8 @@ impl Project {
         }
     }
 
-    /// Outcome for a photograph without a camera. Its pairs tell whether the camera only turned,
-    /// perhaps with another focal length than the given one, which the reconstruction has used.
+    /// Returns the outcome for a photograph without a camera. Its pairs show whether the camera
+    /// only rotated, possibly for another focal length than the given one.
     fn unregistered(
         &self,
         photo: &InputPhoto,
@@ -110,7 +110,7 @@ impl Project {
         }
     }
 
-    /// Outcome for a photograph in words, with advice.
+    /// Describes the outcome for a photograph, with advice.
     pub fn outcome_words(&self, photo: &InputPhoto) -> String {
         let enough = self.document.settings.sfm.min_num_inliers;
         let guessed = self.focal_origin(photo) == Some(FocalOrigin::Guessed);
@@ -157,7 +157,7 @@ impl Project {
         }
     }
 
-    /// The photographs outside the current component, with their outcomes.
+    /// Returns the photographs outside the current component, with their outcomes.
     pub fn left_out(&self) -> Vec<(PhotoId, Outcome)> {
         let photos = self.document.photos.iter();
         photos
@@ -167,7 +167,7 @@ impl Project {
     }
 }
 
-/// The one in the middle.
+/// Returns the median.
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()

@@ -1,4 +1,4 @@
-//! Recipes for the same result elsewhere: the command line, and a program.
+//! Recipe for the same result elsewhere: a command line and a program.
 
 use super::calibration_words::{camera_fields, listed};
 use crate::project::{
@@ -6,7 +6,7 @@ use crate::project::{
 };
 use crate::tasks::{FocalOrigin, Photograph, PhotographOf, Recipe};
 
-/// A photograph that takes part, as it is read elsewhere.
+/// A photograph that takes part, as a recipe reads it.
 struct Part<'a> {
     pixels: &'a Photograph,
     path: String,
@@ -18,9 +18,9 @@ struct Part<'a> {
 /// Contents of a recipe.
 struct Parts<'a> {
     list: Vec<Part<'a>>,
-    /// Folder that replaces the list of files, if equivalent.
+    /// Folder to pass in place of the list of files, if equivalent.
     folder: Option<&'static str>,
-    /// Whether files are read as they were given, rather than from `images/`.
+    /// Whether the original files are read, rather than those in `images/`.
     as_given: bool,
     max_megapixels: Option<f64>,
     uses_camera: bool,
@@ -75,7 +75,7 @@ impl Project {
         })
     }
 
-    /// The recipe, once all photographs are loaded.
+    /// Returns the recipe, once all photographs are loaded.
     pub fn recipe(&self) -> Option<Recipe> {
         let parts = self.parts()?;
         let photographs = match parts.as_given {
@@ -154,7 +154,7 @@ impl Project {
             (false, false) if is_corrected && !options.correct_lens => {
                 say("--keep-focal".to_owned());
             }
-            // So it is without a word.
+            // The default of the command is the same.
             _ => {}
         }
         if options.refine_distortion {
@@ -164,7 +164,7 @@ impl Project {
         command
     }
 
-    /// A program with the crate `epipole`, in the folder of the command.
+    /// Returns a program that uses the crate `epipole`, run in the folder of the command.
     fn program(&self, parts: &Parts<'_>) -> String {
         let settings = &self.document.settings;
         let options = self.sfm_options();
@@ -272,7 +272,7 @@ impl Project {
     }
 }
 
-/// A word as a shell reads it.
+/// Quotes a word for a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "/._-+,@%".contains(c);
     match word.chars().all(is_plain) {

@@ -1,4 +1,4 @@
-//! Cameras and points in words.
+//! Text about cameras and points.
 
 use super::verdict::Verdict;
 use super::words::count;
@@ -67,22 +67,22 @@ impl Project {
         }
     }
 
-    /// Mean error of the component that is looked at before its lens was corrected, pixels; `None`
-    /// if it was not.
+    /// Returns the mean error of the current component before its lens was corrected, pixels;
+    /// `None` if it was not.
     pub fn before_correction_px(&self) -> Option<f64> {
         let found = self.get(ReconstructionOfAll)?;
         *found.before_correction_px.get(self.view.component)?
     }
 
-    /// Whether the focal length of the component that is looked at is known, or follows from its
-    /// photographs. True while there is none.
+    /// Whether the focal length of the current component is given or determined by its photographs.
+    /// True while there is no component.
     pub fn knows_focal(&self) -> bool {
         let found = self.get(ReconstructionOfAll);
         let known = found.and_then(|found| found.determines_focal.get(self.view.component));
         known.copied().unwrap_or(true)
     }
 
-    /// Whether everything that photographs share lies in planes, pair by pair.
+    /// Whether all verified pairs show planes.
     pub(super) fn is_flat(&self) -> bool {
         let photos = self.taking_part();
         let enough = self.document.settings.sfm.min_num_inliers;

@@ -7,14 +7,14 @@ use std::collections::{BTreeMap, BTreeSet};
 /// State of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StepState {
-    /// Every output is there.
+    /// All outputs are available.
     Done,
-    /// An output could not be computed.
+    /// An output failed.
     Failed,
 }
 
 impl Project {
-    /// States of the steps that are done or have failed.
+    /// Returns the states of the steps that are done or have failed.
     pub fn step_states(&self) -> BTreeMap<Step, StepState> {
         let missing = self.missing().into_iter().map(|missing| missing.query);
         let missing = missing.filter(|query| !query.is_settled(self));

@@ -5,7 +5,7 @@ use crate::project::{Outcome, Project, Step};
 use crate::session::Event;
 use crate::tasks::ReconstructionOfAll;
 
-/// Verdict on the part of the reconstruction that is looked at; the first that applies.
+/// Verdict on the current component of the reconstruction. The first that applies is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// No photographs could be joined.
@@ -14,27 +14,27 @@ pub enum Verdict {
     FocalUnsure,
     /// All pairs show a plane, which does not determine the focal length.
     Flat,
-    /// Number of parts that nothing joins.
+    /// Several components, with their number.
     Parts(usize),
-    /// Number of photographs without a camera.
+    /// Photographs without a camera, with their number.
     LeftOut(usize),
-    /// The lens bends lines, and was corrected.
+    /// Lens distortion was found and corrected.
     LensCorrected,
-    /// Free of all of these.
+    /// None of these.
     Sound,
 }
 
 /// Step that a verdict suggests.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Suggestion {
-    /// Change the project, or look at a step.
+    /// Change the project or the view, with a label.
     Send(&'static str, Vec<Event>),
     /// Add photographs.
     AddPhotographs,
 }
 
 impl Project {
-    /// Verdict on the reconstruction; `None` until it has ended.
+    /// Returns the verdict on the reconstruction; `None` until it has ended.
     pub fn verdict(&self) -> Option<Verdict> {
         if self.failure(ReconstructionOfAll).is_some() {
             return Some(Verdict::Nothing);
@@ -59,7 +59,7 @@ impl Project {
         })
     }
 
-    /// Next steps that the verdict suggests, most useful first.
+    /// Returns the next steps that the verdict suggests, most useful first.
     pub fn suggestions(&self, verdict: Verdict) -> Vec<Suggestion> {
         let show = |label, step| Suggestion::Send(label, vec![Event::Show(step)]);
         match verdict {
@@ -93,12 +93,12 @@ impl Project {
 }
 
 impl Verdict {
-    /// Whether the reconstruction can be used as it is.
+    /// Whether the reconstruction can be used without changes.
     pub fn is_sound(self) -> bool {
         matches!(self, Self::Sound | Self::LensCorrected)
     }
 
-    /// In a few words.
+    /// Returns its title.
     pub fn title(self) -> String {
         match self {
             Self::Nothing => "Nothing reconstructed".to_owned(),
@@ -110,7 +110,7 @@ impl Verdict {
         }
     }
 
-    /// Reason and consequence, in a sentence.
+    /// Explains reason and consequence in a sentence.
     pub fn explanation(self) -> &'static str {
         match self {
             Self::Nothing => "No photographs could be joined. Each says why.",

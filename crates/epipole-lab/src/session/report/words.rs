@@ -1,4 +1,4 @@
-//! The current view in words, for screen readers and as a summary.
+//! Description of the current view, for screen readers and as a summary.
 
 use crate::project::{InputPhoto, Outcome, Project, Step, pairs};
 use crate::tasks::{
@@ -6,7 +6,7 @@ use crate::tasks::{
     TwoViews, TwoViewsOf, ViewModel,
 };
 
-/// "1 photograph", "2 photographs".
+/// Counts items: "1 photograph", "2 photographs".
 pub(crate) fn count(number: usize, what: &str) -> String {
     match number {
         1 => format!("1 {what}"),
@@ -15,7 +15,7 @@ pub(crate) fn count(number: usize, what: &str) -> String {
 }
 
 impl Project {
-    /// Description of the current step.
+    /// Describes the current step.
     pub fn describe(&self) -> String {
         if self.document.photos.is_empty() && self.view.step != Step::Calibrate {
             return "No photographs yet. Add two or more of one thing, taken from different places, or open a \
@@ -54,7 +54,8 @@ impl Project {
         words
     }
 
-    /// Consequence of mixed portrait and landscape photographs; empty if all are alike.
+    /// Describes the consequence of mixed portrait and landscape photographs; empty if all are
+    /// alike.
     pub fn orientation_words(&self) -> String {
         let sizes = |is_upright: bool| {
             let photos = self.taking_part().into_iter();
@@ -136,7 +137,8 @@ impl Project {
         )
     }
 
-    /// Why a pair is not computed: one of its photographs takes no part. `None` if both do.
+    /// Explains why a pair is not computed: one of its photographs takes no part. `None` if both
+    /// do.
     fn no_pair_words(&self, pair: [&InputPhoto; 2]) -> Option<String> {
         let absent = pair
             .into_iter()
@@ -146,7 +148,7 @@ impl Project {
 
     /// Explains the result of a pair, and the choice of its matrix.
     ///
-    /// * `first`: its first photograph
+    /// * `first`: first photograph of the pair
     pub fn pair_words(&self, first: &InputPhoto, pair: &TwoViews) -> String {
         let turn = pair.turn_deg.unwrap_or(0.0);
         let is_guessed = self.focal_origin(first) == Some(FocalOrigin::Guessed);
@@ -264,7 +266,7 @@ impl Project {
         words
     }
 
-    /// The length of a measure, for people.
+    /// Formats the length of a measure.
     pub fn length_words(&self, index: usize) -> String {
         let Some(measure) = self.document.measures.get(index) else {
             return String::new();
@@ -318,7 +320,7 @@ impl Project {
     }
 }
 
-/// A value with as many digits as its standard deviation leaves.
+/// Formats a value with as many digits as its standard deviation justifies.
 fn with_sigma(value: f64, sigma: f64) -> String {
     let digits = (1.0 - libm::floor(libm::log10(sigma.max(1e-9)))).clamp(0.0, 6.0) as usize;
     format!("{value:.digits$} ± {sigma:.digits$}")

@@ -1,4 +1,4 @@
-//! The depth of all views for other programs: a cloud with normals, and a surface.
+//! Depth of all views for other programs: a cloud with normals, and a surface.
 
 use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
@@ -10,7 +10,7 @@ use epipole_io::cloud::write_ply;
 use epipole_io::mesh::{write_mesh_glb, write_mesh_obj, write_mesh_ply};
 use nalgebra::{Point3, Similarity3, Vector3};
 
-/// The surface of all views in the frame of the files; empty without one.
+/// Returns the surface of all views in the frame of the files; empty without one.
 pub(super) fn surface(export: &Export) -> Mesh {
     let mut mesh = Mesh::default();
     if let Some(all_views) = &export.all_views {
@@ -25,8 +25,7 @@ pub(super) fn surface(export: &Export) -> Mesh {
 
 /// Adds `fused.ply` and the file of the surface, if there is depth of all views.
 ///
-/// # Errors
-/// A sentence, if a file cannot be written.
+/// # Errors A message, if a file cannot be written.
 pub(super) fn add(archive: &mut Archive, export: &Export, surface: &Mesh) -> Result<(), String> {
     let Some(all_views) = &export.all_views else {
         return Ok(());

@@ -11,13 +11,13 @@ use serde::{Deserialize, Serialize};
 /// Recipe for the same result elsewhere.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Recipe {
-    /// The command line, in the folder of the photographs.
+    /// Command line, to be run in the folder of the photographs.
     pub command: String,
-    /// Which photographs these are, in words.
+    /// Description of the photographs to use.
     pub photographs: String,
-    /// The calibrated camera, as `--camera` reads it.
+    /// Calibrated camera in the format of `--camera`.
     pub camera_json: Option<String>,
-    /// The same as a program, if there is one.
+    /// Equivalent program, if there is one.
     pub program: Option<String>,
 }
 
@@ -30,7 +30,7 @@ pub struct Measured {
     pub length: f64,
     /// Its standard deviation.
     pub sigma: f64,
-    /// The length that was typed, meters.
+    /// Length typed by the reader, meters.
     pub typed_m: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ impl ExportFormat {
         Self::Glb,
     ];
 
-    /// Programs that open it.
+    /// Returns the names of programs that open it.
     pub fn programs(self) -> &'static str {
         match self {
             Self::ColmapText => "COLMAP (text)",
@@ -75,7 +75,7 @@ impl ExportFormat {
         }
     }
 
-    /// Its main file or folder in the zip file.
+    /// Returns its main file or folder in the zip file.
     pub fn place(self) -> &'static str {
         match self {
             Self::ColmapText | Self::ColmapBinary => "sparse/0/",
@@ -86,7 +86,7 @@ impl ExportFormat {
         }
     }
 
-    /// File of the surface of all views in the zip file.
+    /// Returns the file of the surface of all views in the zip file.
     pub fn mesh(self) -> &'static str {
         match self {
             Self::Glb => "mesh.glb",
@@ -101,31 +101,31 @@ impl ExportFormat {
 pub struct Export {
     /// Format of cameras and points.
     pub format: ExportFormat,
-    /// The photographs, as they were reconstructed.
+    /// Photographs, as they were reconstructed.
     pub images: Vec<ImagePoints>,
-    /// The same with their pixels, or without: then those are read once more.
+    /// Their pixels; those without are read again.
     pub photographs: Vec<Packed>,
     /// The reconstruction.
     pub found: Reconstructed,
     /// Index of the component.
     pub component: u32,
-    /// File of the known poses, whose unit of length the reconstruction has.
+    /// File of the known poses that determine the unit of length.
     pub unit_of: Option<String>,
-    /// Meters in a unit of the reconstruction, where something was measured.
+    /// Meters per unit of the reconstruction, if the scale is known.
     pub meters_per_unit: Option<f64>,
-    /// A point of the floor and the direction up: z points up from there in all files.
+    /// A point of the floor and the up direction, which is z in all files.
     pub floor: Option<[[f64; 3]; 2]>,
     /// Measured lengths.
     pub measures: Vec<Measured>,
     /// Whether focal lengths were refined.
     pub focal_refined: bool,
-    /// Names of photographs that have no camera in it, and why.
+    /// Names of photographs without a camera, with the reason.
     pub left_out: Vec<(String, String)>,
     /// Recipe for the same result elsewhere.
     pub recipe: Recipe,
-    /// The largest number of pixels of a photograph.
+    /// Maximum number of pixels of a photograph.
     pub max_pixels: u32,
-    /// Names of pairs, and the depth of their pixels.
+    /// Names of pairs, with their depth.
     pub dense: Vec<(String, Dense)>,
     /// Depth of all views.
     pub all_views: Option<DenseCloud>,

@@ -1,4 +1,4 @@
-//! Depth for other programs: a depth image for each pair, and all points as one cloud.
+//! Depth for other programs: a depth image for each pair, and all points in one cloud.
 
 use super::contents::Export;
 use super::frame::{file_from_world, moved};
@@ -12,10 +12,9 @@ use image::{DynamicImage, ImageFormat, RgbImage};
 use serde_json::{Value, json};
 use std::io::Cursor;
 
-/// Adds `depth/<pair>.pfm` and `.png` of each pair, and `dense.ply`, if there is any.
+/// Adds `depth/<pair>.pfm` and `.png` for each pair, and `dense.ply`, if there is any.
 ///
-/// # Errors
-/// A sentence, if a pair did not arrive whole or a file cannot be written.
+/// # Errors A message, if the data of a pair are incomplete or a file cannot be written.
 pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> {
     if export.dense.is_empty() {
         return Ok(());
@@ -30,7 +29,7 @@ pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> 
         }
         let pixels = (0..pair.height).flat_map(|v| (0..pair.width).map(move |u| (u, v)));
         let depths = pixels.map(|(u, v)| pair.depth(u, v).map_or(f32::NAN, |z| (z * scale) as f32));
-        // An image with one arbitrary number per pixel.
+        // The format holds any number per pixel.
         let depths = DisparityImage::from_raw(pair.width, pair.height, depths.collect())
             .map_err(|_| broken())?;
         archive.add(&format!("depth/{name}.pfm"), &write_pfm(&depths))?;
@@ -49,7 +48,8 @@ pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> 
     archive.add("dense.ply", &write_ply(&cloud))
 }
 
-/// Entries of `reconstruction.json` for the pairs: files, and camera of the depth image.
+/// Returns the entries of `reconstruction.json` for the pairs: files, and camera of the depth
+/// image.
 pub(super) fn json(export: &Export) -> Vec<Value> {
     let frame = file_from_world(export);
     let one = |(name, pair): &(String, Dense)| {

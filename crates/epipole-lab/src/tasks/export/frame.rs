@@ -4,7 +4,7 @@ use super::contents::Export;
 use crate::tasks::camera_found::CameraFound;
 use nalgebra::{Point3, Quaternion, Similarity3, UnitQuaternion, Vector3};
 
-/// The frame of the files from that of the reconstruction.
+/// Returns the transform from the frame of the reconstruction to that of the files.
 pub(super) fn file_from_world(export: &Export) -> Similarity3<f64> {
     let scale = export.meters_per_unit.unwrap_or(1.0);
     let Some([origin, up]) = export.floor else {
@@ -17,7 +17,7 @@ pub(super) fn file_from_world(export: &Export) -> Similarity3<f64> {
     Similarity3::from_parts((to_origin * scale).into(), rotation, scale)
 }
 
-/// A camera in the frame of the files.
+/// Transforms a camera to the frame of the files.
 pub(super) fn moved(camera: &CameraFound, file_from_world: &Similarity3<f64>) -> CameraFound {
     let [i, j, k, w] = camera.rotation;
     let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k))

@@ -1,5 +1,5 @@
-//! The zip file of a reconstruction: a model for another program, a page, PLY, JSON, photographs
-//! and depth.
+//! Zip file of a reconstruction: a model for another program, a page, PLY, JSON, photographs and
+//! depth.
 
 #[cfg(feature = "files")]
 mod cloud;

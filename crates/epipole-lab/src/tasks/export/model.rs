@@ -19,7 +19,7 @@ use std::io::Cursor;
 impl Run for Export {
     fn run(self, monitor: Monitor<'_>) -> Result<Blob, String> {
         let export = &self;
-        // Reads the pixels of a photograph that came without.
+        // Reads the pixels of a photograph that was passed without them.
         let mut read = |photograph: &Packed| {
             let task = ReadPhotograph {
                 source: photograph.source.clone(),
@@ -49,7 +49,7 @@ impl Run for Export {
         }
         let sizes = (export.images.iter()).map(|image| (image.camera.width, image.camera.height));
         let mut model = found.to_core(sizes)?;
-        // Otherwise to the last bit as the command line writes it.
+        // Otherwise the files stay identical to those of the command line.
         if export.meters_per_unit.is_some() || export.floor.is_some() {
             model = model.moved(&file_from_world(export));
         }
@@ -82,7 +82,7 @@ impl Run for Export {
     }
 }
 
-/// The model in a format: COLMAP's in a folder of its own, others beside the folder of photographs.
+/// Adds the model in a format: COLMAP's in a folder, others beside the folder of photographs.
 fn add_model(archive: &mut Archive, format: ExportFormat, model: &Model) -> Result<(), String> {
     let (folder, format) = match format {
         ExportFormat::ColmapText => ("sparse/0/", ModelFormat::ColmapText),
@@ -105,7 +105,7 @@ fn add_model(archive: &mut Archive, format: ExportFormat, model: &Model) -> Resu
     Ok(())
 }
 
-/// Invalid indices in tracks are a bug of the caller.
+/// Checks indices in tracks; invalid ones are a bug of the caller.
 fn check_indices(export: &Export) -> Result<(), String> {
     let is_there = |&(image, keypoint): &(u32, u32)| {
         (export.images.get(image as usize))
@@ -123,7 +123,7 @@ fn check_indices(export: &Export) -> Result<(), String> {
     }
 }
 
-/// The file of a photograph as it was reconstructed, and its name.
+/// Returns the name and the file of a photograph as it was reconstructed.
 fn picture(
     photograph: &Packed,
     read: &mut dyn FnMut(&Packed) -> Result<Photograph, String>,

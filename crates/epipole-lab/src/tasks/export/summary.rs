@@ -1,5 +1,4 @@
-//! A reconstruction in words and numbers: the command line's JSON, and the command that does the
-//! same.
+//! Summary of a reconstruction: the JSON of the command line, measured lengths, and a readme.
 
 use super::contents::{Export, Measured};
 use super::frame::file_from_world;
@@ -8,7 +7,7 @@ use epipole::sfm::{Reconstruction, SfmImage};
 use nalgebra::Point3;
 use serde_json::{Value, json};
 
-/// The object that `epipole sfm --json` prints, without its time.
+/// Returns the object that `epipole sfm --json` prints, without its duration.
 pub(super) fn json(export: &Export, images: &[SfmImage], model: &Reconstruction) -> String {
     let motion = |transform: &RigidTransform| {
         let rotation = transform.rotation.to_rotation_matrix();
@@ -56,7 +55,7 @@ pub(super) fn json(export: &Export, images: &[SfmImage], model: &Reconstruction)
     summary.to_string()
 }
 
-/// Measured lengths with their ends in the frame of the files.
+/// Returns measured lengths with their ends in the frame of the files.
 fn measures(export: &Export) -> Vec<Value> {
     let frame = file_from_world(export);
     let one = |measure: &Measured| {
@@ -71,7 +70,7 @@ fn measures(export: &Export) -> Vec<Value> {
     export.measures.iter().map(one).collect()
 }
 
-/// The same as a table.
+/// Returns measured lengths as a table.
 pub(super) fn measures_csv(export: &Export) -> String {
     let frame = file_from_world(export);
     let mut text = "number,length,sigma,typed_m,x1,y1,z1,x2,y2,z2\n".to_owned();
@@ -88,7 +87,7 @@ pub(super) fn measures_csv(export: &Export) -> String {
     text
 }
 
-/// Description of the files, and the command line that makes them.
+/// Describes the files, and the command that makes them.
 pub(super) fn readme(export: &Export) -> String {
     let unit = match (export.meters_per_unit, &export.unit_of) {
         (Some(_), _) => "Lengths are in meters, by the length that was measured.".to_owned(),
