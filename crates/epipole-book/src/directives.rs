@@ -1,7 +1,7 @@
-//! The authors' vocabulary: a directive a file, each with its three stages, and a line of
+//! The directives of the authors' notation: a file each, with its three stages, and a line of
 //! [`VOCABULARY`].
 //!
-//! The README of this crate shows how each is written.
+//! The README of this crate shows the syntax of each.
 
 mod cite;
 mod claim;
@@ -28,7 +28,7 @@ mod value;
 use crate::parse::text::Entry;
 use crate::render::directive::{Parsed, entry};
 
-/// All directives, in the order of their names.
+/// All directives, sorted by name.
 pub(crate) const VOCABULARY: &[Entry<Parsed>] = &[
     entry::<cite::Cite>(),
     entry::<claim::Claim>(),

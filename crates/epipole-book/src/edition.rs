@@ -1,4 +1,5 @@
-//! The book without scripts, for paper and for reading systems: no controls, answers at its end.
+//! The book without scripts, for paper and e-readers: without controls, with all answers at the
+//! end.
 
 mod answers;
 mod arrange;
@@ -26,7 +27,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Pages that are of no use without scripts, by their Markdown files.
+/// Key of the Markdown files whose pages need scripts.
 const NOT_PRINTED: &str = "output.epipole.not-printed";
 
 /// Options of an edition.
@@ -34,21 +35,21 @@ const NOT_PRINTED: &str = "output.epipole.not-printed";
 pub struct EditionOptions {
     /// The folder with `content/`, `web/` and `crates/`.
     pub project: PathBuf,
-    /// Output folder, or output file of an edition that is one.
+    /// Output folder; for an edition in one file, that file.
     pub out: PathBuf,
-    /// Address of the published book, for links to its figures; that of `book.toml` if `None`.
+    /// Address of the published book, for links to its figures; `None` for that of `book.toml`.
     pub address: Option<String>,
 }
 
-/// An edition that is to be written.
+/// An edition to write.
 pub(crate) struct Edition {
     pub(crate) config: Config,
     pub(crate) contents: Vec<Entry>,
-    /// The last one may be that of the answers.
+    /// Pages; the last one may contain the answers.
     pub(crate) pages: Vec<Page>,
     /// Pictures and other files of the pages.
     pub(crate) files: BTreeMap<String, Vec<u8>>,
-    /// With a trailing slash.
+    /// Address of the published book, with a trailing slash.
     pub(crate) address: Option<String>,
 }
 
@@ -62,7 +63,7 @@ impl Edition {
     }
 }
 
-/// Reads the book and arranges it, and passes it on unless the content has problems.
+/// Reads and arranges the book, and passes it on unless the content has problems.
 ///
 /// # Errors
 /// A missing tool or an unreadable folder.
@@ -103,10 +104,9 @@ pub(crate) fn make(
     })
 }
 
-/// A template with its variables filled in.
+/// Fills in a template.
 ///
-/// # Errors
-/// A template that cannot be read or names another variable.
+/// # Errors A template that is unreadable or names an unknown variable.
 pub(crate) fn filled(file: &Path, data: &impl Serialize) -> Result<String> {
     let source =
         String::from_utf8(read(file)?).with_context(|| format!("{} is no text", file.display()))?;

@@ -1,4 +1,4 @@
-//! The book as an EPUB 3 file, for reading systems: a file of XHTML for each page.
+//! The book as an EPUB 3 file, with an XHTML file for each page.
 
 mod archive;
 mod figures;
@@ -23,17 +23,17 @@ use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
 const STYLES: &str = "book.css";
-/// As the styles name it.
+/// File name in the style sheet.
 const MATH_FONT: &str = "math.woff2";
 
 /// Options of the file.
 #[derive(Debug, Clone)]
 pub struct EpubOptions {
-    /// As of every edition.
+    /// Options of any edition.
     pub edition: EditionOptions,
     /// Time of the last change in UTC, such as `2026-01-31T12:00:00Z`.
     pub modified: String,
-    /// Whether to embed the font of formulas: without one, brackets do not grow with matrices.
+    /// Whether to embed the math font: without one, brackets do not grow with matrices.
     pub font: bool,
 }
 
@@ -83,7 +83,7 @@ pub fn epub(options: &EpubOptions, gallery: &dyn Gallery, phases: &Phases) -> Re
     })
 }
 
-/// The files below [`FOLDER`], and the one that names the package.
+/// Returns the files below [`FOLDER`], and the one that names the package.
 fn files(options: &EpubOptions, edition: &Edition) -> Result<BTreeMap<String, Vec<u8>>> {
     let project = &options.edition.project;
     let web = project.join("web/epub");
@@ -166,7 +166,7 @@ fn files(options: &EpubOptions, edition: &Edition) -> Result<BTreeMap<String, Ve
     Ok(files.chain([container]).collect())
 }
 
-/// A page whose figures and questions need no browser.
+/// Returns a page whose figures and questions need no browser.
 fn plain(page: &Page, edition: &Edition) -> Tree {
     let mut tree = Tree::parse(&page.html);
     figures::flatten(&mut tree, &page.path, edition.address.as_deref());

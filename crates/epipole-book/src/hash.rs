@@ -1,6 +1,7 @@
-//! The hash that names versions of files.
+//! Hash for versions of files.
 
-/// FNV-1a: a hash that names a version of a file. It protects against stale caches, not malice.
+/// Computes the FNV-1a hash, which names a version of a file. It protects against stale caches, not
+/// malice.
 pub(crate) fn fnv(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

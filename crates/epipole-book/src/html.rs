@@ -1,6 +1,6 @@
-//! Small pieces of HTML.
+//! HTML utilities.
 
-/// Text for a page: the five characters that mean something in HTML are replaced.
+/// Escapes the five special characters of HTML.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -15,7 +15,7 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// The words of a heading as an anchor: lower case, joined by hyphens.
+/// Converts a heading to an anchor: lower-case words, joined by hyphens.
 pub fn slug(text: &str) -> String {
     let mut slug = String::new();
     for letter in text.chars() {
@@ -33,8 +33,8 @@ pub fn slug(text: &str) -> String {
     }
 }
 
-/// Relative path from the page at `page` (such as `part/page.html`) to the root of the book: empty
-/// or `../`s.
+/// Returns the relative path from the page at `page` (such as `part/page.html`) to the root of the
+/// book: empty or `../`s.
 pub fn path_to_root(page: &str) -> String {
     "../".repeat(page.matches('/').count())
 }
@@ -77,8 +77,8 @@ pub fn forbidden_inline(html: &str) -> Option<String> {
     None
 }
 
-/// The attributes of a tag, in lower case with their values as written, and the rest behind the
-/// tag.
+/// Parses the attributes of a tag, with names in lower case and values as written. Returns them
+/// with the rest after the tag.
 pub fn attributes(tag: &str) -> (Vec<(String, String)>, &str) {
     let mut found = Vec::new();
     let mut rest = tag;

@@ -1,10 +1,10 @@
-//! The book builder: chapters in Markdown to a static site.
+//! The book builder, from chapters in Markdown to a static site.
 //!
-//! Stages run one way: [`parse`] reads chapters to data, [`resolve`] asks the core for what they
-//! show, [`render`] makes pages, [`write`](mod@write) makes the site. Each directive of the
+//! Stages run one way: [`parse`] reads chapters, [`resolve`] asks the core for their numbers and
+//! figures, [`render`] makes pages, [`write`](mod@write) makes the site. Each directive of the
 //! authors' notation is a file in `directives`, which uses the first three. [`site`] runs the
-//! stages, [`serve`] shows the result while chapters are edited. [`edition`] takes the scripts out
-//! of the pages, for paper ([`print`](mod@print)) and for reading systems ([`mod@epub`]).
+//! stages, [`serve`] shows the result while chapters are edited. [`edition`] removes the scripts
+//! from the pages, for paper ([`print`](mod@print)) and for e-readers ([`mod@epub`]).
 //!
 //! Problems in the content are reported together, with file and line, and fail the build.
 

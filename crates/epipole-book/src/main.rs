@@ -220,7 +220,7 @@ fn once(options: &Options, timings: bool) -> Result<bool> {
 
 /// Runs a build and prints its outcome. False if the content has problems.
 ///
-/// * `out`: the folder it wrote to, if any
+/// * `out`: output folder, if any
 fn reported(
     out: Option<&Path>,
     timings: bool,

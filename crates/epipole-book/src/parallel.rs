@@ -1,12 +1,12 @@
-//! Work on all cores.
+//! Parallel execution.
 
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Results of `work` for all items, in their order.
+/// Applies `work` to all items on all cores. Returns the results in order.
 ///
-/// Plain threads: a figure's computation may use rayon, whose workers take other jobs while they
-/// wait. Such a job could wait for the computation that its own thread has begun.
+/// Uses plain threads: with rayon, a worker that waits inside a figure's computation takes other
+/// jobs, and such a job could wait for the computation that its own thread has begun.
 pub(crate) fn map<T: Send, U: Send>(items: Vec<T>, work: impl Fn(T) -> U + Sync) -> Vec<U> {
     let threads = thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.min(items.len());

@@ -1,4 +1,4 @@
-//! Chapters to data: Markdown, directives, and the file and line of each word.
+//! Parsing of chapters: Markdown, directives, and the file and line of each word.
 
 pub(crate) mod book;
 pub(crate) mod content;

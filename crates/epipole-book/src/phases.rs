@@ -1,4 +1,4 @@
-//! Phases of a build: on a terminal a bar, in a log a line for each with its time.
+//! Phases of a build, displayed as a bar in a terminal and as lines with durations in a log.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -61,7 +61,7 @@ impl Phases {
         result
     }
 
-    /// Runs a phase while others run, without a bar.
+    /// Runs a phase concurrently with others, without a bar.
     pub fn beside<T>(&self, name: &'static str, work: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = work();
@@ -74,7 +74,7 @@ impl Phases {
         result
     }
 
-    /// A table of all phases with their seconds. Those beside others overlap them.
+    /// Returns a table of all phases with their durations in seconds. Concurrent ones overlap.
     pub fn timings(&self) -> String {
         let done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.iter()

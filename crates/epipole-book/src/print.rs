@@ -1,4 +1,4 @@
-//! The book as one document for paper, which `web/print/` arranges and prints.
+//! The book as one document for paper, which `web/print/` lays out and prints.
 
 use crate::edition::{self, AnswerLinks, Edition, EditionOptions, Part, filled, parts};
 use crate::html::escape;
@@ -40,7 +40,7 @@ struct DataPage {
     permalinks: Vec<Permalink>,
 }
 
-/// The address of a figure on the web, in letters and as a QR code.
+/// Address of a figure on the web, as text and as a QR code.
 #[derive(Serialize)]
 struct Permalink {
     figure: String,
@@ -117,7 +117,7 @@ fn permalinks(root: &str, page: &Page) -> Result<Vec<Permalink>> {
             .render::<svg::Color>()
             .quiet_zone(false)
             .build();
-        // Without the declaration of XML, which no element may hold.
+        // Without the XML declaration, which is not allowed inside an element.
         let start = code.find("<svg").unwrap_or_default();
         Ok(Permalink {
             figure: figure.id.clone(),

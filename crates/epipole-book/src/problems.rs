@@ -1,4 +1,4 @@
-//! Problems of the content, with their places. A build collects all of them before it fails.
+//! Problems of the content, with their locations. A build collects all of them before it fails.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -9,12 +9,12 @@ use std::sync::{Mutex, PoisonError};
 pub struct Place {
     /// The file, relative to the project.
     pub file: PathBuf,
-    /// Counted from 1.
+    /// Line, from 1.
     pub line: usize,
 }
 
 impl Place {
-    /// A line, counted from 1, of a file.
+    /// Creates the location of a line, from 1, in a file.
     pub fn new(file: impl AsRef<Path>, line: usize) -> Place {
         Place {
             file: file.as_ref().to_path_buf(),
@@ -29,7 +29,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// One thing that an author has to repair.
+/// A problem that an author has to fix.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
     /// Location in the author's file.
@@ -44,7 +44,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// The problems found so far. Shared by all stages of a build.
+/// Problems found so far, shared by all stages of a build.
 #[derive(Debug, Default)]
 pub struct Problems(Mutex<Vec<Problem>>);
 
@@ -58,7 +58,7 @@ impl Problems {
         });
     }
 
-    /// Every problem once, in the order of files and lines.
+    /// Returns every problem once, sorted by file and line.
     pub fn sorted(&self) -> Vec<Problem> {
         let mut list = self
             .0
@@ -71,7 +71,7 @@ impl Problems {
     }
 }
 
-/// `known` names as a list for people: `a, b, c`, or `none` where there are none.
+/// Joins names for a message: `a, b, c`, or `none` if there are none.
 pub fn name_list<S: AsRef<str>>(known: &[S]) -> String {
     if known.is_empty() {
         return "none".to_owned();

@@ -1,4 +1,4 @@
-//! Chapters to pages that know each other: the beginning of every edition of the book.
+//! Reading of the book up to cross-linked pages, shared by all editions.
 
 use crate::directives::VOCABULARY;
 use crate::parallel;
@@ -21,18 +21,18 @@ use std::path::Path;
 /// Outcome of a build.
 #[derive(Debug)]
 pub enum Outcome {
-    /// The site is in place.
+    /// The site is written.
     Built {
         /// Number of pages.
         pages: usize,
-        /// Number of files, compressed ones included.
+        /// Number of files, including compressed ones.
         files: usize,
     },
     /// The content has problems; nothing was written.
     Problems(Vec<Problem>),
 }
 
-/// A book to read.
+/// A book to be built.
 pub(crate) struct Reading<'a> {
     project: &'a Path,
     gallery: &'a dyn Gallery,
@@ -40,7 +40,7 @@ pub(crate) struct Reading<'a> {
     phases: &'a Phases,
 }
 
-/// The pages of a book without problems.
+/// Cross-linked pages of a book without problems.
 pub(crate) struct Joined<'a> {
     pub(crate) config: Config,
     pub(crate) contents: Vec<Entry>,
@@ -51,7 +51,7 @@ pub(crate) struct Joined<'a> {
 
 impl<'a> Reading<'a> {
     /// * `project`: the folder with `content/`
-    /// * `medium`: that of the posters; none are drawn without it
+    /// * `medium`: medium of the posters; without one, none are drawn
     pub(crate) fn new(
         project: &'a Path,
         gallery: &'a dyn Gallery,
@@ -106,10 +106,9 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Cache of posters and snapshots.
+/// Opens the cache of posters and snapshots.
 ///
-/// # Errors
-/// A folder that cannot be made.
+/// # Errors A folder that cannot be created.
 fn cache(project: &Path) -> Result<Cache> {
     let folder = target_folder(project).join("book-work/posters");
     std::fs::create_dir_all(&folder)

@@ -1,4 +1,4 @@
-//! Data to pages: HTML, MathML, listings, notebooks, panels.
+//! Rendering of pages: HTML, MathML, listings, notebooks, panels.
 
 mod blocks;
 pub(crate) mod chapter;

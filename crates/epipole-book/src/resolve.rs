@@ -1,4 +1,4 @@
-//! Answers of the core: figures and their posters, claims, numbers, references.
+//! Data from the core: figures and their posters, claims, numbers, references.
 
 pub(crate) mod book;
 pub(crate) mod cache;

@@ -1,6 +1,6 @@
-//! A local server for readers and authors. It sends what a good static host would (types,
-//! compressed copies, the content policy, open access for embedding sites), watches the sources,
-//! and reloads open pages.
+//! A local server for readers and authors. It behaves like a good static host (MIME types,
+//! compressed copies, Content-Security-Policy, CORS for embedding sites), watches the sources, and
+//! reloads open pages.
 
 use crate::html::escape;
 use crate::phases::Phases;
@@ -50,11 +50,10 @@ const WATCHED: &[&str] = &[
     "crates/epipole-js/src",
 ];
 
-/// Serves the site at `http://localhost:PORT`. With `watch` it is built first and again when a
+/// Serves the site at `http://localhost:PORT`. With `watch`, builds it first, and again when a
 /// source changes.
 ///
-/// # Errors
-/// A busy port, or a tool that is missing at the first build.
+/// # Errors A busy port, or a missing tool at the first build.
 pub fn serve(options: &Options, port: u16, watch: bool) -> Result<()> {
     let listener = listen(port)?;
     let (reload, _) = broadcast::channel(16);
@@ -92,7 +91,7 @@ fn listen(port: u16) -> Result<std::net::TcpListener> {
     Ok(listener)
 }
 
-/// The site in `folder` with the headers of a good host.
+/// Returns a router for the site in `folder`, with the headers of a good host.
 pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
     let files = ServeDir::new(folder)
         .precompressed_br()
@@ -111,10 +110,10 @@ pub fn app(folder: &Path, reload: broadcast::Sender<()>) -> Router {
         .layer(from_fn(headers))
 }
 
-/// Content policy of the page at this path.
+/// Returns the Content-Security-Policy of the page at this path.
 fn policy_of(path: &str) -> &'static str {
     let is_in = |folder: &str| path.contains(&format!("/{folder}/"));
-    // The pages of single figures are there for the frames of others.
+    // Pages of single figures are meant for frames on other sites.
     if is_in("embed") {
         FRAME_POLICY
     } else if is_in(LAB_FOLDER) {
@@ -122,7 +121,7 @@ fn policy_of(path: &str) -> &'static str {
     } else if is_in(MANUAL_FOLDER) || is_in(REFERENCE_FOLDER) {
         MANUAL_POLICY
     } else {
-        // Pages without code that runs tighten it themselves.
+        // Pages without runnable code restrict it further themselves.
         PROGRAM_POLICY
     }
 }
@@ -160,14 +159,14 @@ async fn headers(request: Request, next: Next) -> Response {
     response
 }
 
-/// Rebuilds after changes, gathering those that come together.
+/// Rebuilds after changes, combining those in quick succession.
 fn watch_sources(options: &Options, reload: &broadcast::Sender<()>) -> Result<()> {
     let (sender, changes) = mpsc::channel();
     let mut watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
         if let Ok(event) = event
             && !event.kind.is_access()
         {
-            // The receiver is gone only when the server stops.
+            // The receiver exists until the server stops.
             let _ = sender.send(event.paths);
         }
     })?;
@@ -199,7 +198,7 @@ fn watch_sources(options: &Options, reload: &broadcast::Sender<()>) -> Result<()
             .any(|path| path.starts_with(options.project.join("crates")));
         match rebuild(options, own_code_changed) {
             Ok(true) => {
-                // There may be no open page.
+                // No page may be open.
                 let _ = reload.send(());
             }
             Ok(false) => {}
@@ -209,8 +208,8 @@ fn watch_sources(options: &Options, reload: &broadcast::Sender<()>) -> Result<()
     Ok(())
 }
 
-/// Builds here, or, when the figures' code has changed since this program started, by a new
-/// program. True if there is a new site.
+/// Rebuilds in this process or, when the figures' code has changed since it started, with a new
+/// one. True if there is a new site.
 fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
     let start = Instant::now();
     if by_cargo {
@@ -249,7 +248,7 @@ fn rebuild(options: &Options, by_cargo: bool) -> Result<bool> {
     }
 }
 
-/// Page shown while there is no site.
+/// Returns the page shown while there is no site.
 fn problem_page(problems: &[Problem]) -> String {
     let lines: Vec<String> = problems
         .iter()
@@ -268,7 +267,7 @@ mod tests {
     use super::*;
     use std::io::{Read, Write};
 
-    /// The response to a request, headers and body.
+    /// Returns the response to a request, headers and body.
     fn response(folder: &Path, request: &str) -> String {
         let listener = listen(0).unwrap();
         let address = listener.local_addr().unwrap();

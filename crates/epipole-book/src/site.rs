@@ -1,4 +1,4 @@
-//! The whole site, stage by stage: chapters to data, answers of the core, pages, files.
+//! The whole site, stage by stage: parsing, data from the core, pages, files.
 
 use crate::html::path_to_root;
 use crate::parse::book;
@@ -34,10 +34,10 @@ pub struct Options {
     pub project: PathBuf,
     /// Output folder of the site.
     pub out: PathBuf,
-    /// Whether to make the files besides the pages: styles, fonts, scripts, WebAssembly. A check of
-    /// the content needs none.
+    /// Whether to make the files besides the pages: styles, fonts, scripts, WebAssembly. Not needed
+    /// for a check of the content.
     pub assets: bool,
-    /// Look for problems only: write nothing but `notebooks`.
+    /// Whether to look for problems only, and write nothing but `notebooks`.
     pub check: bool,
     /// Additional output folder for the notebooks of the chapters.
     pub notebooks: Option<PathBuf>,
@@ -45,7 +45,7 @@ pub struct Options {
     pub manual: Option<PathBuf>,
     /// Folder with the reference of the npm package, which becomes a part of the site.
     pub js_reference: Option<PathBuf>,
-    /// For `serve`: pages reload themselves, and files are not compressed.
+    /// Whether pages reload themselves and files stay uncompressed, for `serve`.
     pub live: bool,
 }
 
@@ -54,12 +54,11 @@ type Files = BTreeMap<String, Vec<u8>>;
 
 /// Builds the book.
 ///
-/// # Errors
-/// A missing tool or an unreadable folder. Problems of the content are not an error but
+/// # Errors A missing tool or an unreadable folder. Problems of the content are not an error but
 /// [`Outcome::Problems`].
 pub fn build(options: &Options, gallery: &dyn Gallery, phases: &Phases) -> Result<Outcome> {
     std::thread::scope(|scope| {
-        // The modules take longest and need nothing of the pages.
+        // The modules take longest and do not depend on the pages.
         let wanted = options.assets && !options.check;
         let modules = wanted.then(|| {
             scope.spawn(|| {
@@ -161,7 +160,7 @@ fn write_site(
     Ok(report)
 }
 
-/// The pages with their surroundings.
+/// Pages with the data shared by all.
 struct Bound<'a> {
     config: &'a mdbook_driver::config::Config,
     contents: &'a [book::Entry],
@@ -171,7 +170,7 @@ struct Bound<'a> {
 }
 
 impl Bound<'_> {
-    /// Adds all pages in their templates, and the files for search and servers.
+    /// Adds all pages, filled into their templates, and the files for search and servers.
     fn add(self, options: &Options, assets: &Assets, files: &mut Files) -> Result<()> {
         let Bound {
             config,

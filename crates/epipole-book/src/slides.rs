@@ -1,4 +1,4 @@
-//! `slides/<chapter>.html`: a deck of slides from each numbered chapter, for reveal.js.
+//! `slides/<chapter>.html`: a reveal.js slide deck for each numbered chapter.
 
 mod arrange;
 mod questions;
@@ -22,7 +22,7 @@ struct Data<'a> {
     book_title: &'a str,
     title: &'a str,
     number: &'a str,
-    /// Path of the chapter from the deck.
+    /// Path from the deck to the chapter.
     chapter: String,
     stacks: Vec<Stack>,
     assets: &'a Assets,
@@ -30,8 +30,7 @@ struct Data<'a> {
 
 /// Adds the decks, made with `web/slides/deck.hbs`.
 ///
-/// # Errors
-/// A template that cannot be read.
+/// # Errors An unreadable template.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     project: &Path,

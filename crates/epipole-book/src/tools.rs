@@ -1,4 +1,4 @@
-//! The programs that the builder runs, and where they and their files are.
+//! Programs that the builder runs, and the locations of their files.
 
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ pub(crate) struct Tools {
     pub(crate) project: PathBuf,
     /// Folder of the installed npm modules.
     pub(crate) modules: PathBuf,
-    /// Intermediate files, kept between builds.
+    /// Folder of intermediate files, kept between builds.
     pub(crate) work: PathBuf,
 }
 
@@ -47,17 +47,17 @@ impl Tools {
     }
 }
 
-/// Cargo's target folder.
+/// Returns Cargo's target folder.
 pub(crate) fn target_folder(project: &Path) -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| project.join("target"), PathBuf::from)
 }
 
-/// The bytes of a file that must be there.
+/// Reads a file that must exist.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
     std::fs::read(path).with_context(|| format!("{} cannot be read", path.display()))
 }
 
-/// Time of the last change of a file, or of any file of a folder.
+/// Returns the modification time of a file, or the newest one in a folder.
 pub(crate) fn newest(path: &Path) -> Result<SystemTime> {
     let about = std::fs::metadata(path);
     let about = about.with_context(|| format!("{} cannot be read", path.display()))?;

@@ -1,4 +1,4 @@
-//! Pages to a site: assets, templates, frames, compression.
+//! Writing of the site: assets, templates, frames, compression.
 
 pub(crate) mod address;
 pub mod assets;

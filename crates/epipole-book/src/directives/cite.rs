@@ -9,14 +9,14 @@ use crate::render::tokens::{PAGE_OF_REFERENCES, token};
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
-/// Works by their keys, and where in them.
+/// Keys of works, and a location in them.
 pub(super) struct Cite {
     keys: Vec<String>,
     locator: Option<String>,
     place: Place,
 }
 
-/// Works that are known.
+/// Citations of known works.
 pub(super) struct Cited {
     /// Keys and labels.
     works: Vec<(String, String)>,
@@ -70,7 +70,7 @@ impl Directive for Cite {
 }
 
 impl Cited {
-    /// The citations; `list` is the page with the list of references.
+    /// Renders the citations; `list` is the page with the list of references.
     fn html(&self, list: &str) -> String {
         let link = |(key, label): &(String, String)| {
             let (key, label) = (escape(key), escape(label));

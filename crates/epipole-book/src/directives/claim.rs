@@ -1,5 +1,5 @@
-//! `{{#claim ransac-race outliers=0.8 | budget > 100}}`: nothing to see; the build fails if the
-//! figure shows otherwise.
+//! `{{#claim ransac-race outliers=0.8 | budget > 100}}`: invisible; the build fails if the figure
+//! contradicts it.
 
 use crate::parse::outline::{own_settings, with_wishes};
 use crate::parse::text::Request;

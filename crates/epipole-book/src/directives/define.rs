@@ -1,4 +1,4 @@
-//! `{{#define epipole}}`: a term where it is explained. The glossary links to it.
+//! `{{#define epipole}}`: the definition of a term. The glossary links to it.
 
 use super::term::Named;
 use crate::html::escape;
@@ -9,7 +9,7 @@ use crate::render::terms::anchor_of;
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
-/// A term where it is explained.
+/// The definition of a term.
 pub(super) struct Define(Named);
 
 impl Directive for Define {

@@ -1,8 +1,8 @@
 //! `{{#figure ransac-race outliers=0.5 id=fig-x | Caption}}`: a live figure with its poster, number
 //! and caption.
 //!
-//! `controls="a b"`, `readouts="a b"` and `goals=none` (`one`, `all`) choose what it shows beside
-//! the picture, `play=button` what a reader can start, and `claim="readout > 3"` is checked.
+//! `controls="a b"`, `readouts="a b"` and `goals=none` (`one`, `all`) select what is shown beside
+//! the picture, `play=button` what a reader can start; `claim="readout > 3"` is checked.
 
 use crate::html::escape;
 use crate::parse::outline::Instance;
@@ -22,18 +22,18 @@ use crate::resolve::figures::Room;
 use crate::resolve::posters::Posters;
 use std::sync::Arc;
 
-/// A figure as its chapter asks for it. `T` is the stage of its caption.
+/// A figure as written in a chapter. `T` is the stage of its caption.
 pub(super) struct Figure<T> {
     instance: Instance,
     caption: T,
     place: Place,
-    /// Choices of what the page shows of it: attributes.
+    /// Attributes that select what the page shows of it.
     shown: Vec<(String, String)>,
     claim: Option<String>,
     play: Option<String>,
 }
 
-/// A figure with what the core says of it.
+/// A figure with its facts from the core.
 pub(super) struct Answered {
     figure: Figure<Text>,
     facts: Arc<Facts>,
@@ -123,7 +123,7 @@ fn shows_goals(shown: &[(String, String)]) -> bool {
     !shown.any(|(key, value)| key == "goals" && value == "none")
 }
 
-/// Checks what a page shows of a figure.
+/// Checks the selection of what a page shows of a figure.
 fn check_shown(shown: &[(String, String)], facts: &Facts) -> Result<(), String> {
     for (key, value) in shown {
         match key.as_str() {

@@ -23,7 +23,7 @@ struct Written {
     formula: String,
     /// Module and name in Rust, `epipolar::sampson_px`.
     function: Option<String>,
-    /// Name in the npm package, if it is not that of Rust in camel case; empty for none.
+    /// Name in the npm package, if it differs from Rust's name in camel case; empty for none.
     javascript: Option<String>,
     opencv: Option<String>,
 }
@@ -34,7 +34,7 @@ pub(super) struct Formulas<T>(Vec<Formula<T>>);
 struct Formula<T> {
     name: String,
     formula: T,
-    /// Language, and what the formula is called there.
+    /// Languages, with the name of the function in each.
     functions: Vec<(&'static str, String)>,
 }
 
@@ -106,7 +106,7 @@ impl Directive for Formulas<ParsedText> {
     }
 }
 
-/// The formulas of all chapters. Problems are reported.
+/// Reads the formulas of all chapters. Problems are reported.
 fn read(source: &Source, problems: &Problems) -> BTreeMap<String, Vec<Spanned<Written>>> {
     toml::from_str(source.text()).unwrap_or_else(|error| {
         let at = error.span().map_or(0, |span| span.start);

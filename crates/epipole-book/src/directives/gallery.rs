@@ -1,6 +1,6 @@
-//! `{{#gallery}}`: a list of all figures. Each has a page of its own with its settings, readouts
-//! and keys, as reported by the figure itself, and a snippet for other pages, which a script keeps
-//! at the state set by the reader.
+//! `{{#gallery}}`: a list of all figures. Each has its own page with its settings, readouts and
+//! keys, as reported by the figure itself, and a snippet for other pages, which a script updates to
+//! the state set by the reader.
 
 mod tables;
 
@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The list of all figures.
 pub(super) struct Gallery(Place);
 
-/// A figure in its first state.
+/// A figure in its initial state.
 struct Exhibit {
     name: String,
     title: String,
@@ -177,7 +177,8 @@ impl Exhibit {
     }
 }
 
-/// The code that embeds a figure in another site; the page's script knows further kinds of pages.
+/// Returns the code that embeds a figure in another site; the page's script knows further kinds of
+/// pages.
 fn snippet(name: &str) -> String {
     let code = format!("<epipole-figure name=\"{name}\"></epipole-figure>");
     format!(

@@ -1,5 +1,5 @@
-//! `{{#glossary}}`: the terms of `content/glossary.toml` in the order of their names, each with its
-//! chapter and figure.
+//! `{{#glossary}}`: the terms of `content/glossary.toml`, sorted by name, each with its chapter and
+//! figure.
 
 use crate::html::escape;
 use crate::parse::source::Source;
@@ -20,7 +20,7 @@ const FILE: &str = "glossary.toml";
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    /// The name, if it is not the key in words.
+    /// The name, if it differs from the key as text.
     term: Option<String>,
     text: String,
     /// Anchor of a figure that shows it.
@@ -89,7 +89,7 @@ impl Directive for Glossary<ParsedText> {
     }
 }
 
-/// The terms of the file, sorted. Problems are reported.
+/// Reads the terms of the file, sorted. Problems are reported.
 fn terms<T>(
     source: &Source,
     text: &mut dyn FnMut(&str, &Place) -> T,

@@ -1,5 +1,4 @@
-//! `{{#include file}}`, `{{#include file:anchor}}`: files, put into the text before directives are
-//! looked for.
+//! `{{#include file}}`, `{{#include file:anchor}}`: files, included before directives are parsed.
 
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};
@@ -8,7 +7,7 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 use std::convert::Infallible;
 
-/// An include that is left over, because it has no end.
+/// An include that remains because it is malformed.
 pub(super) struct Include(Infallible);
 
 impl Directive for Include {

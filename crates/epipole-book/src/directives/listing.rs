@@ -2,8 +2,8 @@
 //! output, and cells of the chapter's notebook.
 //!
 //! The fences are any of `python numpy`, `python opencv`, `python epipole`, `rust` and `js`, in
-//! this order. The tests that run a tab record its output in
-//! `listings/<chapter>.<name>.<tab>.txt`. A listing with `picture="what it shows"` makes
+//! this order. The tests run each tab and record its output in
+//! `listings/<chapter>.<name>.<tab>.txt`. A listing with `picture="description"` writes
 //! `result.png`, which is recorded as `<chapter>.<name>.png`.
 
 use crate::html::{escape, path_to_root};
@@ -18,7 +18,7 @@ use crate::render::notebook::Cell;
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
-/// The tabs: as a fence names them, their languages, and as the page calls them.
+/// Tabs: info string of the fence, language, and label on the page.
 const TABS: [(&str, &str, &str); 5] = [
     ("numpy", "python", "NumPy"),
     ("opencv", "python", "OpenCV"),
@@ -27,13 +27,13 @@ const TABS: [(&str, &str, &str); 5] = [
     ("js", "js", "JavaScript"),
 ];
 
-/// The beginning of a listing. `T` is the stage of its title.
+/// The start of a listing. `T` is the stage of its title.
 pub(super) struct Listing<T> {
     name: String,
     /// The title as Markdown.
     written: String,
     title: T,
-    /// Alternative text of the picture that it makes, if it makes one.
+    /// Alternative text of its picture, if it makes one.
     picture: Option<String>,
     recorded: Recorded,
 }
@@ -97,7 +97,7 @@ impl Directive for Listing<ParsedText> {
     }
 }
 
-/// A listing before its words and fences.
+/// A listing before its text and fences.
 struct Opened {
     heading: Heading,
     picture: Option<String>,
@@ -201,7 +201,7 @@ impl Opened {
         }
     }
 
-    /// The picture of the listing, recorded by the tests.
+    /// Renders the picture of the listing, recorded by the tests.
     fn picture(&self, page: &mut Writer, alternative: &str) -> Result<String, String> {
         let file = format!("listings/{}.png", self.recorded.stem);
         let bytes = self.recorded.picture.clone().ok_or_else(|| {
@@ -262,7 +262,7 @@ impl Recorded {
     }
 }
 
-/// One of `count` tabs: the code and its output.
+/// Renders one of `count` tabs: the code and its output.
 fn part(page: &Writer, name: &str, tab: &Tab, count: usize) -> String {
     let code = pre(&shown(tab.fence, page), &tab.fence.language);
     let key = tab.key;
@@ -285,7 +285,7 @@ fn part(page: &Writer, name: &str, tab: &Tab, count: usize) -> String {
     )
 }
 
-/// Buttons that switch between the tabs.
+/// Renders the buttons that switch between the tabs.
 fn chooser(name: &str, tabs: &[Tab]) -> String {
     if let [only] = tabs {
         return format!("<p class=\"listing-only\">{}</p>", only.label);
@@ -296,7 +296,7 @@ fn chooser(name: &str, tabs: &[Tab]) -> String {
         .map(|(index, tab)| {
             let (key, label, chosen) = (tab.key, tab.label, index == 0);
             let stop = if chosen { "0" } else { "-1" };
-            // A narrow screen shows what stands before the bracket.
+            // A narrow screen shows only the text before the parenthesis.
             let words = match label.split_once(" (") {
                 Some((word, rest)) => format!("{word}<span class=\"tab-more\"> ({rest}</span>"),
                 None => label.to_owned(),
@@ -312,7 +312,7 @@ fn chooser(name: &str, tabs: &[Tab]) -> String {
     )
 }
 
-/// Lines such as `depth: 2.00 m` that two tabs print with different values.
+/// Returns lines such as `depth: 2.00 m` that two tabs print with different values.
 fn contradictions(tabs: &[Tab]) -> Vec<String> {
     let mut known: Vec<(&str, &str, &str)> = Vec::new();
     let mut found = Vec::new();
@@ -333,7 +333,7 @@ fn contradictions(tabs: &[Tab]) -> Vec<String> {
     found
 }
 
-/// Width and height as the head of a PNG has them.
+/// Reads width and height from the header of a PNG.
 fn png_size(bytes: &[u8]) -> Option<(u32, u32)> {
     let head = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(8..16)?;
     let (width, height) = head.split_at(4);
@@ -378,7 +378,7 @@ mod tests {
             contradictions(&third),
             ["OpenCV prints \"rest: 1\" and Epipole (Python) \"rest: 2\""]
         );
-        // A loop may print the same words several times.
+        // A loop may print the same label several times.
         assert!(contradictions(&[tab("NumPy", "Z: 1\nZ: 2")]).is_empty());
     }
 }

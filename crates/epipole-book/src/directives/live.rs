@@ -1,5 +1,5 @@
-//! `{{#live ransac-race.best}}`: a number of a figure, kept up to date; initially its value at page
-//! load.
+//! `{{#live ransac-race.best}}`: a number of a figure, kept up to date; initially its value when
+//! the page loads.
 
 use crate::html::escape;
 use crate::parse::outline::Instance;
@@ -54,7 +54,7 @@ impl Directive for Live {
     }
 
     fn render(Quoted { id, shows, text }: Quoted, _: &mut Writer) -> Insert {
-        // The word joiner keeps a comma on the line of the number, which is a box of its own.
+        // The number is an inline box; a word joiner keeps a following comma on its line.
         let html = format!(
             "<span class=\"live\" data-figure=\"{}\" data-shows=\"{}\">{}</span>\u{2060}",
             escape(&id),

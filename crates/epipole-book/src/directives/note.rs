@@ -7,7 +7,7 @@ use crate::render::insert::Insert;
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
-/// The words of the note.
+/// The text of the note.
 pub(super) struct Note(ParsedText);
 
 impl Directive for Note {

@@ -1,5 +1,5 @@
-//! `{{#do ransac-race outliers=0.7 | words}}`: words of a sentence that set the nearest figure of
-//! that name, by a script of the page (`web/book/operate.ts`).
+//! `{{#do ransac-race outliers=0.7 | words}}`: a phrase that sets the nearest figure of that name
+//! when clicked, by a script of the page (`web/book/operate.ts`).
 
 use crate::html::escape;
 use crate::parse::outline::{Instance, own_settings, with_wishes};
@@ -10,12 +10,12 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 use crate::resolve::claims;
 
-/// The words, and their settings. `T` is the stage of the words.
+/// The phrase and its settings. `T` is the stage of the phrase.
 pub(super) struct Do<T> {
     figure: Instance,
     wishes: Vec<(String, String)>,
     claim: Option<String>,
-    /// States of the figure for readers who clicked other words before.
+    /// States of the figure for readers who clicked other phrases before.
     after_others: [Vec<(String, String)>; 2],
     words: T,
 }
@@ -58,7 +58,7 @@ impl Directive for Do<ParsedText> {
         let facts = book.facts(name, &settings)?;
         if let Some(claim) = &self.claim {
             claims::check(claim, &facts)?;
-            // The claim must also hold after a click on other words.
+            // The claim must also hold after clicks on other phrases.
             for settings in &self.after_others {
                 let facts = book.facts(name, settings)?;
                 claims::check(claim, &facts)

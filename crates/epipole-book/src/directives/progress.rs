@@ -1,5 +1,4 @@
-//! `{{#progress}}`: which questions the reader has solved and which goals reached, kept in their
-//! own browser.
+//! `{{#progress}}`: solved questions and reached goals, stored in the reader's own browser.
 
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};

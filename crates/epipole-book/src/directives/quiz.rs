@@ -1,5 +1,5 @@
 //! `{{#quiz ransac}}`: the quiz `quizzes/ransac.toml`, as forms that a small script checks. Without
-//! a script the questions and, folded, their answers are there.
+//! a script, the page shows the questions and, folded, their answers.
 
 mod file;
 mod form;

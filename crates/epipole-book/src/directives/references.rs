@@ -8,7 +8,7 @@ use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 use crate::resolve::references::{Reference, References};
 
-/// The list, for which nothing is written.
+/// The list, which takes no arguments.
 pub(super) struct List;
 
 impl Directive for List {
@@ -30,7 +30,7 @@ impl Directive for List {
     }
 }
 
-/// All works in the order of their first authors and years.
+/// Lists all works, sorted by first author and year.
 fn html(references: &References) -> String {
     let mut works: Vec<(&str, &Reference)> = references.works().collect();
     works.sort_by_key(|(key, work)| (work.authors.clone(), work.year, (*key).to_owned()));

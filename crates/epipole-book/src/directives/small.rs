@@ -1,9 +1,9 @@
 //! `{{#small figure key=value … page=sfm.md | words}}`: a small picture of a figure in that state,
-//! with words below it.
+//! with a text below it.
 //!
-//! With `moves="key=value …"` the picture comes to life in view: the figure moves there and back
-//! (`web/book/small.ts`). It links to the page as soon as there is one: chapters may name pages
-//! still to come. If the page has a quiz, the page's script shows the number of questions solved.
+//! With `moves="key=value …"` the figure runs while in view, and moves to these values and back
+//! (`web/book/small.ts`). It links to the page once that exists, as chapters may name future pages.
+//! If the page has a quiz, the page's script shows the number of questions solved.
 
 use crate::html::escape;
 use crate::parse::outline::{own_settings, with_wishes};
@@ -19,7 +19,7 @@ use crate::resolve::book::Book;
 use crate::resolve::figures::Room;
 use crate::resolve::posters::Posters;
 
-/// A figure in a state, and its page. `T` is the stage of its words.
+/// A figure in a state, and its page. `T` is the stage of its text.
 pub(super) struct Small<T> {
     name: String,
     settings: Vec<(String, String)>,
@@ -34,7 +34,7 @@ pub(super) struct Small<T> {
 pub(super) struct Drawn {
     small: Small<Text>,
     posters: Posters,
-    /// Attributes that bring the picture to life.
+    /// Attributes for the running figure.
     life: String,
 }
 
@@ -95,7 +95,7 @@ impl Directive for Small<ParsedText> {
         } = drawn;
         let pictures = pictures::add(page, &small.name, posters);
         let words = small.words.inline(page);
-        // The words describe the picture, so its alternative text is empty.
+        // The text describes the picture, so its alternative text is empty.
         let inside = format!(
             "<picture>{}<img src=\"{}\" alt=\"\" loading=\"lazy\" decoding=\"async\"></picture>\
              <span>{words}</span>",
@@ -105,7 +105,7 @@ impl Directive for Small<ParsedText> {
             return Insert::inline(format!("<span class=\"small\">{inside}</span>"));
         };
         let href = escape(&links::rewrite(page, target, small.place));
-        // Which quiz the page has is known once it is rendered.
+        // The quiz of the page is known once that page is rendered.
         let solved = token(SOLVED, file_of(target));
         Insert::inline(format!(
             "<a class=\"small\"{life} href=\"{href}\">{inside}{solved}</a>"
@@ -113,12 +113,12 @@ impl Directive for Small<ParsedText> {
     }
 }
 
-/// The file of a link to a section.
+/// Returns the file of a link to a section.
 fn file_of(page: &str) -> &str {
     page.split('#').next().unwrap_or(page)
 }
 
-/// Settings that the figure moves to, each with an initial value to return to.
+/// Parses the settings that the figure moves to, each of which needs an initial value to return to.
 fn moves_of(moves: &str, settings: &[(String, String)]) -> Result<Vec<(String, String)>, String> {
     let one = |word: &str| {
         let (key, value) = word
@@ -134,7 +134,7 @@ fn moves_of(moves: &str, settings: &[(String, String)]) -> Result<Vec<(String, S
     moves.split_whitespace().map(one).collect()
 }
 
-/// The attributes that the script of the page reads.
+/// Renders the attributes that the script of the page reads.
 fn life(name: &str, settings: &[(String, String)], moves: &[(String, String)]) -> String {
     let object = |pairs: &[(String, String)]| {
         let pairs = pairs

@@ -1,4 +1,4 @@
-//! `{{#symbols P p p' ℓ' e'}}`: a list of letters that the chapter's figures draw as well.
+//! `{{#symbols P p p' ℓ' e'}}`: a list of symbols that the chapter's figures also draw.
 
 use crate::html::escape;
 use crate::parse::text::Request;
@@ -30,10 +30,9 @@ impl Directive for Symbols {
     }
 }
 
-/// The list of the letters.
+/// Renders the list of symbols.
 ///
-/// # Errors
-/// A letter that nobody knows, with those that are known.
+/// # Errors A message for an unknown symbol, with the known ones.
 fn list(names: &[String]) -> Result<String, String> {
     let mut rows = String::new();
     for name in names {

@@ -1,6 +1,6 @@
 //! `{{#task name | Title}}` … `{{/task}}`: a programming task with the fences `start`, `check` and
-//! `solution`. In Python it is one of the notebook. In JavaScript readers solve it in the page; its
-//! check is the body of a function that returns "Right: …" or "Not yet: …".
+//! `solution`. In Python it is part of the notebook. In JavaScript readers solve it in the page;
+//! its check is the body of a function that returns "Right: …" or "Not yet: …".
 
 use crate::hash::fnv;
 use crate::html::{escape, path_to_root};
@@ -18,7 +18,7 @@ use crate::resolve::book::Book;
 /// The fences.
 const FENCES: [&str; 3] = ["start", "check", "solution"];
 
-/// The beginning of a task. `T` is the stage of its title.
+/// The start of a task. `T` is the stage of its title.
 pub(super) struct Task<T> {
     name: String,
     /// The title as Markdown.
@@ -60,7 +60,7 @@ impl Directive for Task<ParsedText> {
     }
 }
 
-/// A task whose words and fences follow.
+/// A task before its text and fences.
 struct Opened(Heading);
 
 impl Block for Opened {

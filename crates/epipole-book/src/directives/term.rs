@@ -1,4 +1,4 @@
-//! `{{#term epipole | epipoles}}`: words that lead to the entry of their term in the glossary.
+//! `{{#term epipole | epipoles}}`: a phrase linked to the entry of its term in the glossary.
 
 use crate::html::escape;
 use crate::parse::text::Request;
@@ -10,7 +10,7 @@ use crate::render::tokens::{PAGE_OF_GLOSSARY, token};
 use crate::render::writer::Writer;
 use crate::resolve::book::Book;
 
-/// Words of a sentence that name a term.
+/// A phrase that names a term.
 pub(super) struct Named {
     pub(super) key: String,
     pub(super) words: String,
@@ -20,8 +20,7 @@ pub(super) struct Named {
 impl Named {
     /// Parses `key | words`. The words default to the name of the term.
     ///
-    /// # Errors
-    /// A sentence, unless there is one key.
+    /// # Errors A message, unless there is exactly one key.
     pub(super) fn parse(request: &Request) -> Result<Self, String> {
         let key = request.one_word("key | words")?;
         let body = request.body.as_ref();
@@ -33,7 +32,7 @@ impl Named {
     }
 }
 
-/// A term as a sentence uses it.
+/// A term used in a sentence.
 pub(super) struct Term(Named);
 
 impl Directive for Term {

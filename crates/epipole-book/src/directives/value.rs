@@ -1,4 +1,4 @@
-//! `{{#value ransac.trials s=2 w=0.5 p=0.99}}`: a number that the core computes, also inside
+//! `{{#value ransac.trials s=2 w=0.5 p=0.99}}`: a number computed by the core, also inside
 //! formulas.
 
 use crate::parse::text::Request;

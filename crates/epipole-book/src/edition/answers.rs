@@ -12,9 +12,9 @@ const TITLE: &str = "Hints and answers";
 /// Links between questions and answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum AnswerLinks {
-    /// No links: the contents lead to the answers, on paper.
+    /// No links, on paper: the table of contents leads to the answers.
     None,
-    /// From a question to its answer, and back.
+    /// From a question to its answer and back.
     Both,
 }
 
@@ -34,7 +34,7 @@ impl Answers {
         }
     }
 
-    /// Moves the answers of a page here.
+    /// Moves the answers of a page to this one.
     pub(super) fn take(&mut self, tree: &mut Tree, page: &Page) {
         let all = tree.all("details");
         if all.is_empty() {
@@ -84,7 +84,7 @@ impl Answers {
         self.html.push_str("</dl>\n");
     }
 
-    /// The page, if there are answers.
+    /// Returns the page, if there are answers.
     pub(super) fn page(self) -> Option<Page> {
         (!self.html.is_empty()).then(|| Page {
             path: PATH.to_owned(),
@@ -95,7 +95,7 @@ impl Answers {
     }
 }
 
-/// Removes the summary of an answer, and returns its first words: the kind of the answer.
+/// Removes the summary of an answer. Returns its first words, the kind of answer.
 fn take_kind(tree: &mut Tree, details: NodeId) -> String {
     let Some(&summary) = tree.inside(details, "summary").first() else {
         return String::new();
@@ -108,7 +108,7 @@ fn take_kind(tree: &mut Tree, details: NodeId) -> String {
     kind
 }
 
-/// Name of the question, exercise or section that an answer belongs to.
+/// Returns the name of the question, exercise or section that an answer belongs to.
 fn subject(tree: &Tree, details: NodeId) -> String {
     let is_question = |element: scraper::ElementRef| {
         let mut classes = element.value().classes();
@@ -135,7 +135,7 @@ fn subject(tree: &Tree, details: NodeId) -> String {
     before
 }
 
-/// Items of numbered lists, with their index in the list.
+/// Returns items of numbered lists, with their index in the list.
 fn exercises(tree: &Tree) -> Vec<(usize, NodeId)> {
     let lists = tree.all("ol").into_iter();
     let items = lists.flat_map(|list| {

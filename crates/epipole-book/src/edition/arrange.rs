@@ -1,4 +1,4 @@
-//! Pages without what can only be operated.
+//! Removal of interactive elements from pages.
 
 use super::answers::{AnswerLinks, Answers};
 use super::captions::remove_instructions;
@@ -6,7 +6,7 @@ use super::tree::Tree;
 use crate::html::escape;
 use crate::render::page::Page;
 
-/// Elements that do nothing without a script.
+/// Elements that are useless without a script.
 const CONTROLS: &str = ".anchor, .deck-link, button, .verdict, .listing-bar [role=tablist], [hidden], template, .progress, script:not([src])";
 
 /// Arranges the pages, and adds one with hints, solutions and answers.
@@ -25,7 +25,7 @@ pub(super) fn arrange(pages: &mut Vec<Page>, links: AnswerLinks) {
     pages.extend(answers.page());
 }
 
-/// Keeps the first version of each listing, and names the others.
+/// Keeps the first tab of each listing, and names the others.
 fn keep_first_versions(tree: &mut Tree) {
     for listing in tree.all(".listing") {
         let names: Vec<String> = tree

@@ -3,13 +3,13 @@
 use super::sentence;
 use super::tree::Tree;
 
-/// First words of instructions to operate a figure.
+/// First words of instructions for operating a figure.
 const IMPERATIVES: [&str; 21] = [
     "Change", "Choose", "Click", "Drag", "Flatten", "Lengthen", "Light", "Lower", "Move", "Or",
     "Press", "Raise", "Set", "Slide", "Step", "Switch", "Take", "Tap", "Try", "Turn", "Walk",
 ];
 
-/// Removes instructions to operate a figure from its caption.
+/// Removes instructions for operating a figure from its caption.
 pub(super) fn remove_instructions(tree: &mut Tree) {
     for caption in tree.all("figcaption") {
         let html = tree.inner(caption);
@@ -22,7 +22,7 @@ pub(super) fn remove_instructions(tree: &mut Tree) {
 
 fn without_instructions(html: &str) -> String {
     let mut kept = String::new();
-    // The number of the figure has no full stop.
+    // The number of the figure does not end like a sentence.
     let start = html.find("</a> ").map_or(0, |end| end + "</a> ".len());
     let (number, mut rest) = html.split_at(start);
     while !rest.is_empty() {

@@ -4,10 +4,10 @@ use crate::parse::book::Entry;
 use crate::render::page::{Heading, Page};
 use serde::Serialize;
 
-/// Pages below a heading of the contents.
+/// Pages below a heading of the table of contents.
 #[derive(Serialize, Default)]
 pub(crate) struct Part {
-    /// None for pages outside of parts.
+    /// Heading; `None` for pages outside of parts.
     pub(crate) title: Option<String>,
     pub(crate) pages: Vec<Listed>,
 }
@@ -27,8 +27,8 @@ pub(crate) struct Section {
     pub(crate) html: String,
 }
 
-/// The contents without pages that the edition leaves out. Pages that the contents of the site do
-/// not name follow at the end.
+/// Returns the contents without pages that the edition omits. Pages missing in the contents of the
+/// site follow at the end.
 pub(crate) fn parts(contents: &[Entry], pages: &[Page]) -> Vec<Part> {
     let mut parts = vec![Part::default()];
     let mut rest: Vec<&Page> = pages.iter().collect();

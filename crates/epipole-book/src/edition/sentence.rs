@@ -1,7 +1,7 @@
-//! Sentences of a paragraph.
+//! Splitting of paragraphs into sentences.
 
-/// HTML up to the end of the first sentence that ends outside of all elements, or with one;
-/// everything if there is none.
+/// Returns the HTML up to the end of the first sentence that ends outside of all elements or at the
+/// end of one; everything if there is none.
 pub(crate) fn first(html: &str) -> &str {
     let mut depth = 0_usize;
     let mut rest = html.char_indices().peekable();
@@ -18,7 +18,7 @@ pub(crate) fn first(html: &str) -> &str {
             }
             '.' | '?' | '!' => {
                 let end = at + 1;
-                // With a formula that it must not be parted from.
+                // A formula and the period after it share an element that keeps them on one line.
                 let bound = html[end..].strip_prefix("</span>").filter(|_| depth == 1);
                 let after = bound.unwrap_or(&html[end..]);
                 if (depth == 0 || bound.is_some()) && ends(&html[..at], after) {
@@ -31,8 +31,8 @@ pub(crate) fn first(html: &str) -> &str {
     html
 }
 
-/// Whether a mark between these texts ends a sentence: a new one follows, and it is no abbreviation
-/// or initial.
+/// Whether punctuation between these texts ends a sentence: a new one follows, and it belongs to no
+/// abbreviation or initial.
 fn ends(before: &str, after: &str) -> bool {
     let word = before.rsplit([' ', '\n', '(', '>', '\u{a0}']).next();
     let is_initial = |word: &str| word.chars().count() == 1 && word.chars().all(char::is_uppercase);

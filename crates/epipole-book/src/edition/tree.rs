@@ -1,4 +1,4 @@
-//! The elements of a page, to be found and moved.
+//! Editing of a page's elements.
 
 use crate::render::links::{is_external, resolve_path};
 use ego_tree::NodeId;
@@ -7,7 +7,7 @@ use html5ever::{LocalName, QualName, ns};
 use scraper::node::Element;
 use scraper::{ElementRef, Html, Node, Selector};
 
-/// The elements of a page or of a part of it.
+/// Elements of a page or of a part of one.
 pub(crate) struct Tree(Html);
 
 impl Tree {
@@ -15,7 +15,7 @@ impl Tree {
         Tree(Html::parse_fragment(html))
     }
 
-    /// The element around everything.
+    /// Returns the root element.
     pub(crate) fn root(&self) -> NodeId {
         self.0.root_element().id()
     }
@@ -24,37 +24,38 @@ impl Tree {
         self.0.root_element().inner_html()
     }
 
-    /// HTML of the children of an element.
+    /// Returns the HTML of an element's children.
     pub(crate) fn inner(&self, node: NodeId) -> String {
         let element = self.element(node);
         element.map_or_else(String::new, |element| element.inner_html())
     }
 
-    /// HTML of an element; nothing for text.
+    /// Returns the HTML of an element; empty for text.
     pub(crate) fn outer(&self, node: NodeId) -> String {
         let element = self.element(node);
         element.map_or_else(String::new, |element| element.html())
     }
 
-    /// Name of an element; nothing for text.
+    /// Returns the name of an element; empty for text.
     pub(crate) fn name(&self, node: NodeId) -> &str {
         self.element(node)
             .map_or("", |element| element.value().name())
     }
 
-    /// Starts and ends of everything inside an element, in their order.
+    /// Iterates over starts and ends of all nodes inside an element, in document order.
     pub(crate) fn edges(&self, node: NodeId) -> impl Iterator<Item = Edge<'_, Node>> {
         let node = self.0.tree.get(node);
         let children = node.into_iter().flat_map(|node| node.children());
         children.flat_map(|child| child.traverse())
     }
 
-    /// Elements that a selector of CSS matches, in their order; none if it is no selector.
+    /// Returns the elements that match a CSS selector, in document order; none if the selector is
+    /// invalid.
     pub(crate) fn all(&self, selector: &str) -> Vec<NodeId> {
         self.inside(self.root(), selector)
     }
 
-    /// The same below an element.
+    /// Returns the matching elements below an element.
     pub(crate) fn inside(&self, node: NodeId, selector: &str) -> Vec<NodeId> {
         let (Some(element), Ok(selector)) = (self.element(node), Selector::parse(selector)) else {
             return Vec::new();
@@ -63,7 +64,7 @@ impl Tree {
         found.map(|element| element.id()).collect()
     }
 
-    /// The nearest element around a node that a test accepts.
+    /// Returns the nearest ancestor of a node that passes a test.
     pub(crate) fn around(&self, node: NodeId, test: impl Fn(ElementRef) -> bool) -> Option<NodeId> {
         let ancestors = self.0.tree.get(node)?.ancestors();
         let mut elements = ancestors.filter_map(ElementRef::wrap);
@@ -75,7 +76,7 @@ impl Tree {
         self.element(node)?.attr(name)
     }
 
-    /// Text inside an element, without blanks at its ends.
+    /// Returns the text inside an element, trimmed.
     pub(crate) fn text(&self, node: NodeId) -> String {
         let element = self.element(node);
         let text: String = element.into_iter().flat_map(|e| e.text()).collect();
@@ -94,7 +95,7 @@ impl Tree {
         }
     }
 
-    /// Sets an attribute. Selectors may know a former class or id.
+    /// Sets an attribute. Selectors may still match a former class or id.
     pub(crate) fn set(&mut self, node: NodeId, name: &str, value: &str) {
         let name = QualName::new(None, ns!(), LocalName::from(name));
         self.with_element(node, |element| {
@@ -102,7 +103,7 @@ impl Tree {
         });
     }
 
-    /// Keeps only the attributes that a test accepts.
+    /// Keeps only the attributes that pass a test.
     pub(crate) fn keep_attributes(&mut self, node: NodeId, test: impl Fn(&str) -> bool) {
         self.with_element(node, |element| {
             element.attrs.retain(|name, _| test(&name.local));
@@ -127,7 +128,7 @@ impl Tree {
         self.remove(node);
     }
 
-    /// Moves a node to the place before an element.
+    /// Moves a node before an element.
     pub(crate) fn move_before(&mut self, node: NodeId, moved: NodeId) {
         if let Some(mut node) = self.0.tree.get_mut(node) {
             node.insert_id_before(moved);
@@ -169,7 +170,7 @@ impl Tree {
         children.map(|child| child.id()).collect()
     }
 
-    /// Takes the nodes of a piece of HTML into the tree, without a place.
+    /// Adds the nodes of an HTML fragment to the tree, without a parent.
     fn adopt(&mut self, html: &str) -> Vec<NodeId> {
         let piece = Html::parse_fragment(html).tree;
         let document = self.0.tree.extend_tree(piece).id();
@@ -181,8 +182,8 @@ impl Tree {
     }
 }
 
-/// A place that a link names: the path from the root of the book, and what follows it. None for
-/// links to other servers.
+/// Resolves a link to the path from the root of the book and the rest of the link. `None` for links
+/// to other servers.
 ///
 /// * `page`: path of the page with the link
 pub(crate) fn place<'a>(page: &str, href: &'a str) -> Option<(String, &'a str)> {

@@ -1,4 +1,4 @@
-//! The file itself: a ZIP archive that begins with its kind.
+//! The ZIP archive, which begins with its MIME type.
 
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
@@ -6,7 +6,7 @@ use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-/// Packs the files. The same files give the same bytes.
+/// Packs the files. Equal files give equal bytes.
 pub(super) fn pack(files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let kind = ("mimetype", &b"application/epub+zip"[..]);

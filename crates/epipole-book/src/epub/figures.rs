@@ -1,11 +1,11 @@
-//! Figures as pictures, and formulas as reading systems want them.
+//! Conversion of figures to pictures, and of formulas to the MathML of EPUB.
 
 use crate::edition::tree::{Tree, place};
 use crate::html::escape;
 use crate::write::address::of_page;
 use std::collections::BTreeSet;
 
-/// Attributes that only a browser needs.
+/// Attributes that only browsers need.
 const OF_BROWSERS: [&str; 7] = [
     "autocomplete",
     "decoding",
@@ -16,7 +16,7 @@ const OF_BROWSERS: [&str; 7] = [
     "xmlns",
 ];
 
-/// Leaves the pictures of figures, with a link to the live figure if the address of the book is
+/// Replaces figures by their pictures, with a link to the live figure if the address of the book is
 /// known.
 pub(super) fn flatten(tree: &mut Tree, page: &str, address: Option<&str>) {
     for picture in tree.all("picture") {
@@ -58,7 +58,8 @@ pub(super) fn flatten(tree: &mut Tree, page: &str, address: Option<&str>) {
     }
 }
 
-/// Makes LaTeX the alternative text of a formula: annotations are shown where MathML is unknown.
+/// Makes LaTeX the alternative text of a formula. Annotations would be displayed by readers without
+/// MathML.
 fn formulas(tree: &mut Tree) {
     for math in tree.all("math") {
         if let Some(&annotation) = tree.inside(math, "annotation").first() {
@@ -70,7 +71,7 @@ fn formulas(tree: &mut Tree) {
             tree.unwrap(semantics);
         }
     }
-    // MathML 3, the one that EPUB knows, has these attributes elsewhere.
+    // EPUB uses MathML 3, in which other elements have these attributes.
     for row in tree.all("mrow[displaystyle]") {
         tree.rename(row, "mstyle");
     }
@@ -84,14 +85,14 @@ fn formulas(tree: &mut Tree) {
     }
 }
 
-/// Paths of the pictures of a page, from the root of the book.
+/// Returns the paths of a page's pictures, from the root of the book.
 pub(super) fn paths(tree: &Tree, page: &str) -> BTreeSet<String> {
     let images = tree.all("img").into_iter();
     let paths = images.filter_map(|image| Some(place(page, tree.attr(image, "src")?)?.0));
     paths.collect()
 }
 
-/// Path of the picture of the first figure.
+/// Returns the path of the first figure's picture.
 pub(super) fn first(tree: &Tree, page: &str) -> Option<String> {
     let image = *tree.all("figure.epipole > img").first()?;
     Some(place(page, tree.attr(image, "src")?)?.0)

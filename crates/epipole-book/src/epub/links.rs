@@ -5,11 +5,11 @@ use crate::html::path_to_root;
 use crate::render::page::Page;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// All places that a link can lead to.
+/// All targets of links.
 pub(super) struct Places<'a> {
     /// Anchors by the path of their page.
     anchors: BTreeMap<&'a str, BTreeSet<String>>,
-    /// Of the published book, with a trailing slash.
+    /// Address of the published book, with a trailing slash.
     address: Option<&'a str>,
 }
 
@@ -26,8 +26,8 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Makes the links of a page lead to places of the file, or else of the published book. Other
-    /// links become plain text.
+    /// Points the links of a page to the file, or else to the published book. Other links become
+    /// plain text.
     pub(super) fn lead(&self, tree: &mut Tree, page: &str) {
         for link in tree.all("a") {
             let href = tree.attr(link, "href").unwrap_or_default();
@@ -57,7 +57,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Path of a page in the file: `part/rays.html#a` is `part/rays.xhtml#a`.
+/// Returns the path of a page in the file: `part/rays.html#a` becomes `part/rays.xhtml#a`.
 pub(super) fn xhtml_path(path: &str) -> String {
     let (path, anchor) = path.split_at(path.find('#').unwrap_or(path.len()));
     let stem = path.strip_suffix(".html").unwrap_or(path);

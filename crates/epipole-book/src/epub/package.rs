@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 /// Folder of the book inside the file.
 pub(super) const FOLDER: &str = "book";
 
-/// Something in a page that reading systems want to know of.
+/// Property of a page, declared in the manifest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Property {
     Mathml,
@@ -21,7 +21,7 @@ pub(super) enum Property {
 pub(super) struct Item {
     path: String,
     media_type: &'static str,
-    /// Separated by blanks, if any.
+    /// Properties, separated by spaces, if any.
     properties: Option<String>,
 }
 
@@ -51,7 +51,7 @@ pub(super) struct Package<'a> {
     address: Option<&'a str>,
     modified: &'a str,
     parts: Vec<Part>,
-    /// In the order of reading.
+    /// Pages in reading order.
     pages: Vec<Item>,
     /// Pictures and fonts.
     others: Vec<Item>,
@@ -81,8 +81,7 @@ impl<'a> Package<'a> {
 
     /// * `cover`: path of one of the pictures
     ///
-    /// # Errors
-    /// A picture that reading systems do not know.
+    /// # Errors A picture in a format that EPUB does not support.
     pub(super) fn add_pictures(
         &mut self,
         paths: &BTreeSet<String>,
@@ -121,11 +120,11 @@ fn picture(path: &str, properties: Option<String>) -> Result<Item> {
     })
 }
 
-/// A UUID of a book's title: all its releases have the same.
+/// Derives a UUID from a book's title: the same for all its releases.
 fn identifier(title: &str) -> String {
     let hash = Sha256::digest(title);
     let mut bytes: Vec<u8> = hash[..16].to_vec();
-    // Version 8, whose bits have no meaning.
+    // Version 8: a UUID with custom content.
     bytes[6] = bytes[6] & 0x0f | 0x80;
     bytes[8] = bytes[8] & 0x3f | 0x80;
     let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
@@ -133,7 +132,7 @@ fn identifier(title: &str) -> String {
     format!("urn:uuid:{}", groups.join("-"))
 }
 
-/// Whether this is a time such as `2026-01-31T12:00:00Z`.
+/// Whether a text is a time such as `2026-01-31T12:00:00Z`.
 pub(super) fn is_time(text: &str) -> bool {
     let pattern = "0000-00-00T00:00:00Z";
     let fits = |(letter, wanted): (char, char)| match wanted {
@@ -143,7 +142,7 @@ pub(super) fn is_time(text: &str) -> bool {
     text.len() == pattern.len() && text.chars().zip(pattern.chars()).all(fits)
 }
 
-/// The file that names the package document.
+/// Returns the file that names the package document.
 pub(super) fn container() -> Vec<u8> {
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\

@@ -1,9 +1,9 @@
-//! Questions and notes without fields: EPUB takes a form for a script.
+//! Conversion of forms: EPUB regards a page with a form as scripted.
 
 use crate::edition::tree::Tree;
 use ego_tree::NodeId;
 
-/// Choices and steps become lists, and fields for numbers gaps.
+/// Converts choices and steps to lists, and number fields to blanks.
 pub(super) fn flatten(tree: &mut Tree) {
     for label in tree.all(".note-mark label") {
         for field in tree.inside(label, "input") {
@@ -12,7 +12,7 @@ pub(super) fn flatten(tree: &mut Tree) {
         tree.unwrap(label);
     }
     for question in tree.all("form.question") {
-        // Words below the pictures would be the answer.
+        // Text below the pictures would give away the answer.
         for choice in tree.inside(question, ".choice .small") {
             describe(tree, choice);
         }
@@ -36,7 +36,7 @@ pub(super) fn flatten(tree: &mut Tree) {
     }
 }
 
-/// Makes the words of a small picture its alternative text.
+/// Moves the text of a small picture to its alternative text.
 fn describe(tree: &mut Tree, small: NodeId) {
     for words in tree.inside(small, ":scope > span") {
         let text = tree.text(words);
@@ -47,7 +47,7 @@ fn describe(tree: &mut Tree, small: NodeId) {
     }
 }
 
-/// Makes the labels of a class the items of a list.
+/// Converts the labels of a class to list items.
 fn list(tree: &mut Tree, question: NodeId, class: &str) {
     let labels = tree.inside(question, &format!("label.{class}"));
     let Some(&first) = labels.first() else {

@@ -1,4 +1,4 @@
-//! HTML elements as XHTML.
+//! Serialization of HTML elements as XHTML.
 
 use super::package::Property;
 use crate::edition::tree::Tree;
@@ -8,14 +8,14 @@ use html5ever::{Namespace, QualName, ns};
 use scraper::Node;
 use std::collections::BTreeSet;
 
-/// Elements of HTML without an end.
+/// HTML elements without an end tag.
 const VOID: [&str; 7] = ["br", "col", "hr", "img", "source", "track", "wbr"];
 
-/// The contents of a page in XHTML, and the properties that the package names for it.
+/// Returns the content of a page in XHTML, and its properties for the manifest.
 pub(super) fn xhtml(tree: &Tree) -> (String, BTreeSet<Property>) {
     let mut text = String::new();
     let mut properties = BTreeSet::new();
-    // The namespaces of the elements around.
+    // Namespaces of the open elements.
     let mut around: Vec<Namespace> = vec![ns!(html)];
     for edge in tree.edges(tree.root()) {
         match edge {
@@ -28,7 +28,7 @@ pub(super) fn xhtml(tree: &Tree) -> (String, BTreeSet<Property>) {
                         text.push_str(&format!(" xmlns=\"{}\"", name.ns));
                         properties.extend(property(&name.ns));
                     }
-                    // The namespace is written already.
+                    // The namespace is declared separately.
                     let attributes = element.attrs.iter();
                     for (key, value) in attributes.filter(|(key, _)| key.ns == ns!()) {
                         text.push_str(&format!(" {}=\"{}\"", key.local, escape(&allowed(value))));
@@ -70,7 +70,7 @@ fn is_empty(name: &QualName, has_children: bool) -> bool {
     }
 }
 
-/// Text without control characters, which XML knows no name for.
+/// Removes control characters, which XML does not allow.
 fn allowed(text: &str) -> String {
     let is_allowed = |letter: &char| !letter.is_control() || matches!(letter, '\n' | '\t');
     text.chars().filter(is_allowed).collect()

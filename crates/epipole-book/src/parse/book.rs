@@ -1,4 +1,4 @@
-//! The book as mdBook reads it: its settings, its table of contents, and its chapters.
+//! Settings, table of contents and chapters of the book, in mdBook's format.
 
 use super::content::Content;
 use super::include::include;
@@ -26,26 +26,25 @@ pub(crate) enum Entry {
     Chapter {
         number: Option<String>,
         title: String,
-        /// Path of the page; none for a draft.
+        /// Path of the page; `None` for a draft.
         path: Option<String>,
     },
 }
 
-/// A chapter with its includes in place.
+/// A chapter with its includes expanded.
 #[derive(Debug)]
 pub(crate) struct Chapter {
     /// Path of the page, such as `part/ransac.html`.
     pub(crate) path: String,
     pub(crate) title: String,
-    /// Such as `4`.
+    /// Number, such as `4`.
     pub(crate) number: Option<String>,
     pub(crate) source: Source,
 }
 
-/// Reads the book. None if the table of contents has problems, which are reported.
+/// Reads the book. `None` if the table of contents has problems, which are reported.
 ///
-/// # Errors
-/// Settings or chapters that cannot be read.
+/// # Errors Unreadable settings or chapters.
 pub(crate) fn read(content: &Content, problems: &Problems) -> Result<Option<Manuscript>> {
     check_contents(content, problems);
     if !problems.sorted().is_empty() {
@@ -103,7 +102,8 @@ fn html_path(file: &str) -> String {
     format!("{}.html", file.strip_suffix(".md").unwrap_or(file))
 }
 
-/// `[output.epipole] first-chapter = 0` in `book.toml`: the number of the first numbered chapter.
+/// Returns the number of the first numbered chapter, `[output.epipole] first-chapter` in
+/// `book.toml`.
 fn first_chapter(config: &Config) -> u32 {
     let written = config.get::<u32>("output.epipole.first-chapter");
     written.ok().flatten().unwrap_or(1)
@@ -118,7 +118,7 @@ fn number(chapter: &BookChapter, first: u32) -> Option<String> {
     Some(shifted.collect::<Vec<_>>().join("."))
 }
 
-/// Reports chapters that `SUMMARY.md` names but that do not exist, by line.
+/// Reports missing chapters of `SUMMARY.md`, by line.
 fn check_contents(content: &Content, problems: &Problems) {
     let Some(source) = content.read("SUMMARY.md") else {
         let place = content.place("SUMMARY.md", 1);

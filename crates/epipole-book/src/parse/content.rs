@@ -1,4 +1,4 @@
-//! The content folder: chapters and what lies beside them.
+//! The content folder: chapters and the files beside them.
 
 use super::source::Source;
 use crate::problems::Place;
@@ -25,23 +25,23 @@ impl Content {
         &self.folder
     }
 
-    /// A line of a file, as messages name it.
+    /// Returns a line of a file, for messages.
     pub(crate) fn place(&self, file: &str, line: usize) -> Place {
         Place::new(self.shown_as.join(file), line)
     }
 
-    /// Full path of a file.
+    /// Returns the full path of a file.
     pub(crate) fn path(&self, file: &str) -> PathBuf {
         self.folder.join(file)
     }
 
-    /// A text file; none if it cannot be read.
+    /// Reads a text file; `None` if it is unreadable.
     pub(crate) fn read(&self, file: &str) -> Option<Source> {
         let text = std::fs::read_to_string(self.path(file)).ok()?;
         Some(Source::new(text, self.place(file, 1)))
     }
 
-    /// Names of the files in a folder; none if there is no such folder.
+    /// Returns the names of the files in a folder; empty if there is no such folder.
     pub(crate) fn files_in(&self, folder: &str) -> Vec<String> {
         let entries = std::fs::read_dir(self.path(folder)).into_iter();
         let entries = entries.flatten().flatten();

@@ -1,4 +1,4 @@
-//! Finding one's way in the events of a parsed text.
+//! Helpers for the events of a parsed text.
 
 use pulldown_cmark::{CowStr, Event, HeadingLevel, Tag};
 use std::collections::HashMap;
@@ -7,7 +7,7 @@ use std::ops::Range;
 /// An event and its byte range.
 pub(crate) type Located<'a> = (Event<'a>, Range<usize>);
 
-/// The index after the end of the element that starts at `start`.
+/// Returns the index after the end of the element that starts at `start`.
 pub(crate) fn end_of(events: &[Located], start: usize) -> usize {
     let mut depth = 0_usize;
     for (at, (event, _)) in events.iter().enumerate().skip(start) {
@@ -25,7 +25,8 @@ pub(crate) fn end_of(events: &[Located], start: usize) -> usize {
     events.len()
 }
 
-/// Byte offsets of the sections, each starting with a second-level heading, and of the text's end.
+/// Returns the byte offsets of the sections, which start with second-level headings, and of the
+/// text's end.
 pub(crate) fn section_starts(events: &[Located]) -> Vec<usize> {
     let mut starts = Vec::new();
     let mut at = 0;
@@ -44,7 +45,7 @@ pub(crate) fn section_starts(events: &[Located]) -> Vec<usize> {
     starts
 }
 
-/// Takes the definitions of footnotes out of the events: they become margin notes.
+/// Removes the definitions of footnotes from the events: they become margin notes.
 pub(crate) fn take_footnotes<'a>(
     events: &mut Vec<Located<'a>>,
 ) -> HashMap<CowStr<'a>, Vec<Located<'a>>> {

@@ -1,5 +1,5 @@
 //! `{{#include file}}` and `{{#include file:anchor}}`, also inside listings, so that the code on a
-//! page is a file that the tests run.
+//! page is a tested file.
 
 use super::content::Content;
 use super::source::Source;
@@ -7,7 +7,7 @@ use crate::problems::Problems;
 
 const OPENING: &str = "{{#include ";
 
-/// The text with all includes replaced; what is wrong is reported.
+/// Expands all includes of a text. Problems are reported.
 pub(crate) fn include(
     source: &Source,
     folder: &str,
@@ -40,7 +40,7 @@ pub(crate) fn include(
     whole
 }
 
-/// The text of `file` or `file:anchor`.
+/// Returns the text of `file` or `file:anchor`.
 fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, String> {
     let (file, anchor) = match argument.split_once(':') {
         Some((file, anchor)) => (file, Some(anchor)),
@@ -79,7 +79,7 @@ fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, Strin
     }
 }
 
-/// The word after a mark, if the line has the mark.
+/// Returns the word after a marker, if the line contains it.
 fn marked<'a>(line: &'a str, mark: &str) -> Option<&'a str> {
     line.split_once(mark)
         .and_then(|(_, rest)| rest.split_whitespace().next())

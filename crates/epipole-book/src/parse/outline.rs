@@ -1,5 +1,5 @@
-//! Figures of a page and the words that set them, found before the directives are parsed: a
-//! sentence can name a figure below it.
+//! Figures of a page and the phrases that set them, found before the directives are parsed, as a
+//! sentence can refer to a figure below it.
 
 use super::source::Source;
 use super::syntax::{Call, Piece, split};
@@ -11,18 +11,18 @@ pub(crate) struct Instance {
     pub(crate) name: String,
     /// Its permanent anchor on the page.
     pub(crate) id: String,
-    /// The state that the chapter shows it in.
+    /// State in the chapter.
     pub(crate) settings: Vec<(String, String)>,
     first: Place,
     last_line: usize,
 }
 
-/// A chapter at a glance.
+/// Figures, phrases and symbols of a chapter.
 #[derive(Debug, Default)]
 pub(crate) struct Outline {
     figures: Vec<Instance>,
     acts: Vec<Act>,
-    /// Letters of the chapter that its figures also draw.
+    /// Symbols of the chapter that its figures also draw.
     pub(crate) symbols: Vec<String>,
 }
 
@@ -36,21 +36,20 @@ impl Outline {
         }
     }
 
-    /// The figure of the directive at `place`.
+    /// Returns the figure of the directive at `place`.
     pub(crate) fn at(&self, place: &Place) -> Option<&Instance> {
         at(place, &self.figures)
     }
 
-    /// The figure that a sentence at `place` means by `name` or `name#id`.
+    /// Returns the figure that `name` or `name#id` in a sentence at `place` refers to.
     ///
-    /// # Errors
-    /// A sentence with the figures of the page.
+    /// # Errors A message with the figures of the page.
     pub(crate) fn nearest(&self, wanted: &str, place: &Place) -> Result<&Instance, String> {
         nearest(wanted, place, &self.figures)
     }
 
-    /// States of `figure` after a click on the words at `place`, for a reader who clicked other
-    /// words before: all above, or all below.
+    /// Returns the states of `figure` after a click on the phrase at `place`, for a reader who
+    /// clicked other phrases before: all above, or all below.
     pub(crate) fn after_others(
         &self,
         figure: &Instance,
@@ -67,7 +66,7 @@ impl Outline {
     }
 }
 
-/// The letters that a chapter lists.
+/// Returns the symbols that a chapter lists.
 fn symbols(source: &Source) -> Vec<String> {
     let mut names = Vec::new();
     for piece in split(source) {
@@ -80,20 +79,21 @@ fn symbols(source: &Source) -> Vec<String> {
     names
 }
 
-/// Attributes of a figure's tag for the builder and the page; all others are the figure's state.
+/// Attributes of a figure's tag that concern the builder and the page; all others are the figure's
+/// state.
 const WORDS_OF_THE_PAGE: [&str; 8] = [
     "id", "controls", "readouts", "goals", "claim", "page", "play", "moves",
 ];
 
-/// The settings of a directive that are the figure's own.
+/// Returns the settings of a directive that belong to the figure's state.
 pub(crate) fn own_settings(directive: &Call) -> Vec<(String, String)> {
     let mut settings = directive.settings.clone();
     settings.retain(|(key, _)| !WORDS_OF_THE_PAGE.contains(&key.as_str()));
     settings
 }
 
-/// All figures of a chapter in order. Figures without a given id are `fig-name`, then `fig-name-2`
-/// and so on.
+/// Returns all figures of a chapter in order. Figures without an explicit id are `fig-name`, then
+/// `fig-name-2` and so on.
 fn instances(source: &Source) -> Vec<Instance> {
     let mut found: Vec<Instance> = Vec::new();
     for piece in split(source) {
@@ -121,7 +121,7 @@ fn instances(source: &Source) -> Vec<Instance> {
     found
 }
 
-/// Words of a page that set one of its figures.
+/// A phrase of a page that sets one of its figures.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Act {
     place: Place,
@@ -130,7 +130,7 @@ pub(crate) struct Act {
     pub(crate) wishes: Vec<(String, String)>,
 }
 
-/// All words of a chapter that set figures, in their order; `all` are its figures.
+/// Returns all phrases of a chapter that set figures, in order; `all` are its figures.
 fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
     let act = |piece| {
         let Piece::Directive(directive) = piece else {
@@ -151,8 +151,8 @@ fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
     split(source).into_iter().filter_map(act).collect()
 }
 
-/// Other words that a reader may have clicked for `figure` before the words at `place`: those above
-/// from the top down, and those below from the bottom up.
+/// Returns other phrases that a reader may have clicked for `figure` before the one at `place`:
+/// those above from the top down, and those below from the bottom up.
 fn clicked_before<'a>(
     figure: &Instance,
     (place, wishes): (&Place, &[(String, String)]),
@@ -186,16 +186,15 @@ fn free_id(name: &str, taken: &[Instance]) -> String {
     ids.find(is_free).unwrap_or(first)
 }
 
-/// The figure that the tag at `place` makes.
+/// Returns the figure of the tag at `place`.
 fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance> {
     all.iter().find(|figure| figure.first == *place)
 }
 
-/// The figure for `name` or `name#id` in a sentence at `place`: the nearest of several, and the
-/// earlier of two equally near.
+/// Returns the figure for `name` or `name#id` in a sentence at `place`: the nearest, and of two
+/// equally near ones the earlier.
 ///
-/// # Errors
-/// A sentence with the figures of the page.
+/// # Errors A message with the figures of the page.
 fn nearest<'a>(wanted: &str, place: &Place, all: &'a [Instance]) -> Result<&'a Instance, String> {
     let (name, id) = match wanted.split_once('#') {
         Some((name, id)) => (name, Some(id)),

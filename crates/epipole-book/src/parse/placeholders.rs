@@ -1,27 +1,27 @@
-//! Placeholders for the HTML of directives while Markdown is parsed, of private-use characters: so
-//! Markdown cannot mangle it, and every event still knows its file and line.
+//! Placeholders for the HTML of directives while Markdown is parsed. They consist of private-use
+//! characters, which Markdown does not change, so that every event keeps its file and line.
 
 const OPEN: char = '\u{E000}';
 const CLOSE: char = '\u{E001}';
 
-/// The placeholder of the insert with this index.
+/// Returns the placeholder of the insert with this index.
 pub(crate) fn of(index: usize) -> String {
     format!("{OPEN}{index}{CLOSE}")
 }
 
-/// The index that a text stands in for, if it is one placeholder and nothing else.
+/// Returns the index of a placeholder, if the text is nothing else.
 pub(crate) fn index_of(words: &str) -> Option<usize> {
     let digits = words.strip_prefix(OPEN)?.strip_suffix(CLOSE)?;
     digits.parse().ok()
 }
 
-/// A piece of a text with placeholders.
+/// A part of a text with placeholders.
 pub(crate) enum Part<'a> {
     Words(&'a str),
     Insert(usize),
 }
 
-/// The words and placeholders of a text, in their order.
+/// Splits a text into words and placeholders, in order.
 pub(crate) fn parts(words: &str) -> Vec<Part<'_>> {
     let mut parts = Vec::new();
     let mut rest = words;

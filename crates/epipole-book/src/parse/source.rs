@@ -1,9 +1,9 @@
-//! Text that remembers which file and line each part came from.
+//! Text whose parts keep their file and line.
 
 use crate::problems::Place;
 use std::ops::Range;
 
-/// Text put together from pieces of content files.
+/// Text assembled from content files.
 #[derive(Debug, Clone, Default)]
 pub struct Source {
     text: String,
@@ -14,12 +14,12 @@ pub struct Source {
 struct Piece {
     start: usize,
     place: Place,
-    /// Whether a line feed in the piece is also a line feed in the file.
+    /// Whether line feeds of the piece are line feeds of the file.
     verbatim: bool,
 }
 
 impl Source {
-    /// Text as it stands in a file, beginning at `place`.
+    /// Creates a text copied from a file, beginning at `place`.
     pub fn new(text: impl Into<String>, place: Place) -> Source {
         Source {
             text: text.into(),
@@ -36,7 +36,7 @@ impl Source {
         &self.text
     }
 
-    /// The file and line of the byte at `offset`.
+    /// Returns file and line of the byte at `offset`.
     pub fn place(&self, offset: usize) -> Place {
         let offset = offset.min(self.text.len());
         let index = self
@@ -54,7 +54,7 @@ impl Source {
         place
     }
 
-    /// Appends text that was made from what stands at `place`.
+    /// Appends text generated from the content at `place`.
     pub fn push(&mut self, text: &str, place: Place) {
         self.pieces.push(Piece {
             start: self.text.len(),
@@ -89,7 +89,7 @@ impl Source {
         self.text.push_str(&other.text[range]);
     }
 
-    /// A part of this source.
+    /// Returns a part of this source.
     pub fn slice(&self, range: Range<usize>) -> Source {
         let mut part = Source::default();
         part.push_slice(self, range);

@@ -1,24 +1,24 @@
-//! Lengths of the stretches of a chapter without anything to look at.
+//! Stretches of a chapter without visuals.
 
 use super::source::Source;
 use super::syntax::{Call, Piece, markdown_options, split};
 use crate::problems::Place;
 use pulldown_cmark::{Event, Parser, Tag, TagEnd};
 
-/// Directives with something to look at: a figure, a table of formulas.
+/// Directives with visuals: a figure, a table of formulas.
 const SHOWN: [&str; 2] = ["figure", "formulas"];
 
-/// Paragraphs in a row without a figure, a picture, a drawing, a table or a listing.
+/// Consecutive paragraphs without a figure, a picture, a drawing, a table or a listing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// Number of paragraphs; a list or a remark counts as one. A displayed formula belongs to the
+    /// Number of paragraphs; a list or an aside counts as one. A displayed formula belongs to the
     /// paragraph before it.
     pub paragraphs: usize,
     /// Start of the stretch.
     pub place: Place,
 }
 
-/// The stretches of a chapter, up to its quiz: the rest is not read in one go.
+/// Returns the stretches of a chapter up to its quiz, since the rest is not read in one go.
 pub fn stretches(source: &Source) -> Vec<Stretch> {
     let figures: Vec<Call> = split(source)
         .into_iter()

@@ -5,7 +5,7 @@ use super::source::Source;
 use pulldown_cmark::{Event, Options, Parser, Tag};
 use std::ops::Range;
 
-/// One request in a chapter.
+/// A directive in a chapter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Call {
     /// Name, written after `{{#`.
@@ -21,7 +21,7 @@ pub struct Call {
 }
 
 impl Call {
-    /// The value of a setting.
+    /// Returns the value of a setting.
     pub fn setting(&self, key: &str) -> Option<&str> {
         let mut settings = self.settings.iter();
         let found = settings.find(|(known, _)| known == key);
@@ -29,7 +29,7 @@ impl Call {
     }
 }
 
-/// A piece of a chapter: text, a directive, or an opening without an end.
+/// A piece of a chapter: text, or a valid or malformed directive.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Piece {
     /// Ordinary text.
@@ -40,7 +40,7 @@ pub enum Piece {
     Broken(Range<usize>, String),
 }
 
-/// The extensions of Markdown that chapters may use.
+/// Returns the Markdown extensions that chapters may use.
 pub fn markdown_options() -> Options {
     Options::ENABLE_TABLES
         | Options::ENABLE_FOOTNOTES
@@ -93,7 +93,7 @@ pub fn split(source: &Source) -> Vec<Piece> {
     pieces
 }
 
-/// Byte ranges of code blocks and code spans.
+/// Returns the byte ranges of code blocks and code spans.
 fn code_ranges(text: &str) -> Vec<Range<usize>> {
     let mut ranges = Vec::new();
     for (event, range) in Parser::new_ext(text, markdown_options()).into_offset_iter() {
@@ -105,8 +105,8 @@ fn code_ranges(text: &str) -> Vec<Range<usize>> {
     ranges
 }
 
-/// The end of the directive that starts at `start`: braces are balanced, so a body may hold
-/// formulas and further directives.
+/// Returns the end of the directive that starts at `start`. Braces are balanced, so a body may
+/// contain formulas and further directives.
 fn closing(text: &str, start: usize) -> Option<usize> {
     let bytes = text.as_bytes();
     let mut depth = 0_usize;
@@ -176,7 +176,7 @@ fn bar_outside_quotes(text: &str) -> Option<usize> {
     None
 }
 
-/// Words separated by white space; double quotes keep spaces together and are dropped.
+/// Splits a text at white space; double quotes keep spaces together and are removed.
 fn tokens(text: &str) -> Result<Vec<String>, String> {
     let mut tokens = Vec::new();
     let mut token = String::new();

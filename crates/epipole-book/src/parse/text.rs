@@ -1,4 +1,4 @@
-//! Markdown with its directives parsed, also those inside of captions, notes and quizzes.
+//! Markdown with parsed directives, also inside captions, notes and quizzes.
 
 use super::content::Content;
 use super::outline::Outline;
@@ -7,17 +7,16 @@ use super::source::Source;
 use super::syntax::{Call, Piece, split};
 use crate::problems::{Place, Problems, name_list};
 
-/// Markdown in which placeholders take the place of directives. `D` is what a stage has of a
-/// directive.
+/// Markdown with placeholders for its directives. `D` is a directive at some stage.
 pub(crate) struct Text<D> {
     /// The Markdown with its placeholders.
     pub(crate) source: Source,
-    /// The directives by the index of their placeholders; none where a problem was reported.
+    /// Directives by the index of their placeholders; `None` if a problem was reported.
     pub(crate) directives: Vec<Option<D>>,
 }
 
 impl<D> Text<D> {
-    /// The text of the next stage.
+    /// Maps the text to the next stage.
     pub(crate) fn map<E>(self, next: impl FnMut(D) -> Option<E>) -> Text<E> {
         let mut next = next;
         let directives = self.directives.into_iter();
@@ -31,16 +30,15 @@ impl<D> Text<D> {
 /// A directive as written, to be parsed.
 pub(crate) struct Request<'a> {
     pub(crate) call: &'a Call,
-    /// The text behind ` | `.
+    /// The text after ` | `.
     pub(crate) body: Option<Source>,
     pub(crate) place: Place,
 }
 
 impl<'a> Request<'a> {
-    /// The only word.
+    /// Returns the only word.
     ///
-    /// # Errors
-    /// A sentence with `usage`, if there are more or none.
+    /// # Errors A message with `usage`, unless there is exactly one.
     pub(crate) fn one_word(&self, usage: &str) -> Result<&'a str, String> {
         match &self.call.words[..] {
             [word] => Ok(word),
@@ -48,7 +46,7 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// The value of a setting.
+    /// Returns the value of a setting.
     pub(crate) fn setting(&self, key: &str) -> Option<&'a str> {
         self.call.setting(key)
     }
@@ -56,7 +54,7 @@ impl<'a> Request<'a> {
 
 /// A line of the vocabulary.
 pub(crate) struct Entry<D> {
-    /// Name behind `{{#`.
+    /// Name after `{{#`.
     pub(crate) name: &'static str,
     pub(crate) parse: fn(&Request, &Parser<D>) -> Result<D, String>,
 }
@@ -68,13 +66,12 @@ pub(crate) struct Parser<'a, D> {
     /// Path of the page, such as `part/ransac.html`.
     pub(crate) page: &'a str,
     pub(crate) outline: &'a Outline,
-    /// In the order of the names.
+    /// Directives, sorted by name.
     pub(crate) vocabulary: &'a [Entry<D>],
 }
 
 impl<D> Parser<'_, D> {
-    /// Parses a text and, by their own parsers, the texts inside its directives. Problems are
-    /// reported.
+    /// Parses a text and the texts inside its directives. Problems are reported.
     pub(crate) fn text(&self, source: &Source) -> Text<D> {
         let mut text = Text {
             source: Source::default(),
@@ -98,7 +95,7 @@ impl<D> Parser<'_, D> {
         text
     }
 
-    /// Parses a text that stands at `place` in another file.
+    /// Parses a text from `place` in another file.
     pub(crate) fn verbatim(&self, text: &str, place: &Place) -> Text<D> {
         self.text(&Source::new(text, place.clone()))
     }

@@ -1,4 +1,4 @@
-//! Paragraphs with a single directive, and the fences between two of them.
+//! Paragraphs with a single directive, and blocks of fences between two such paragraphs.
 
 use super::insert::{Block, Fence, Insert};
 use super::listing::info;
@@ -9,20 +9,20 @@ use crate::problems::Place;
 use pulldown_cmark::{Event, Tag};
 use std::ops::Range;
 
-/// Contents of a block, up to the paragraph that ends it.
+/// Content of a block, up to the paragraph that ends it.
 pub(super) struct Collected {
-    /// Events of the words before the fences.
+    /// Events of the text before the fences.
     pub(super) words: Vec<Range<usize>>,
     pub(super) fences: Vec<Fence>,
-    /// Places of words after a fence.
+    /// Places of text after a fence, which is not allowed.
     pub(super) strays: Vec<Place>,
     /// Whether the end was found.
     pub(super) is_closed: bool,
-    /// The index of the event behind the block.
+    /// Index of the event after the block.
     pub(super) next: usize,
 }
 
-/// Collects a block that begins before `from`.
+/// Collects a block whose start lies before `from`.
 pub(super) fn collect(
     events: &[Located],
     from: usize,
@@ -64,7 +64,7 @@ pub(super) fn collect(
                 found.words.push(at..next);
             }
             Event::Start(_) => found.strays.push(source.place(range.start)),
-            // The element around the block ends before the block does.
+            // The element around the block ends first.
             Event::End(_) => break,
             _ => {}
         }
@@ -73,7 +73,7 @@ pub(super) fn collect(
     found
 }
 
-/// The text of a fence.
+/// Returns the text of a fence.
 pub(super) fn code_of(fence: &[Located]) -> String {
     let texts = fence.iter().map(|(event, _)| match event {
         Event::Text(code) => code.as_ref(),
@@ -82,7 +82,7 @@ pub(super) fn code_of(fence: &[Located]) -> String {
     texts.collect()
 }
 
-/// The beginning of a block, if a paragraph holds nothing else.
+/// Returns the opening of a block, if a paragraph contains nothing else.
 pub(super) fn lone_opening<'t>(inner: &[Located], inserts: &'t [Insert]) -> Option<&'t dyn Block> {
     match inserts.get(lone_index(inner)?)? {
         Insert::Opening(opening) => Some(opening.as_ref()),
@@ -90,7 +90,7 @@ pub(super) fn lone_opening<'t>(inner: &[Located], inserts: &'t [Insert]) -> Opti
     }
 }
 
-/// The HTML of a paragraph with a single insert, and its text for the search index.
+/// Returns the HTML of a paragraph with a single insert, and its text for the search index.
 pub(super) fn lone_block<'t>(
     inner: &[Located],
     inserts: &'t [Insert],
@@ -103,7 +103,7 @@ pub(super) fn lone_block<'t>(
     }
 }
 
-/// The index of the insert that a paragraph holds, if it holds nothing else.
+/// Returns the index of the insert in a paragraph, if it contains nothing else.
 fn lone_index(inner: &[Located]) -> Option<usize> {
     let mut words = String::new();
     for (event, _) in inner {

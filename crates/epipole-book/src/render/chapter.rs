@@ -1,4 +1,4 @@
-//! A chapter on its way through the stages: parsed, resolved, rendered.
+//! A chapter at each of its stages: parsed, resolved, rendered.
 
 use super::directive::{Parsed, Parser, Resolved};
 use super::notebook::{self, Cell, Tasks};
@@ -13,13 +13,13 @@ use crate::parse::text::{Entry, Text};
 use crate::problems::{Place, Problems};
 use crate::resolve::book::Book;
 
-/// A chapter whose text is at the stage `D` of its directives.
+/// A chapter whose directives are at stage `D`.
 pub(crate) struct Draft<D> {
     page: Page,
     text: Text<D>,
-    /// Letters of the chapter that its figures draw as well.
+    /// Symbols of the chapter that its figures also draw.
     symbols: Vec<String>,
-    /// Its first line.
+    /// First line.
     start: Place,
 }
 
@@ -53,7 +53,7 @@ impl Draft<Parsed> {
         }
     }
 
-    /// Asks the core all that the chapter wants to know. Problems are reported.
+    /// Resolves all directives of the chapter. Problems are reported.
     pub(crate) fn resolve(self, book: &Book) -> Draft<Resolved> {
         Draft {
             page: self.page,
@@ -65,7 +65,7 @@ impl Draft<Parsed> {
 }
 
 impl Draft<Resolved> {
-    /// Makes the page. Problems are reported.
+    /// Renders the page. Problems are reported.
     pub(crate) fn render(self, problems: &Problems) -> Page {
         let mut writer = Writer::new(self.page, &self.symbols, problems);
         let html = self.text.block(&mut writer);
@@ -83,7 +83,7 @@ impl Draft<Resolved> {
     }
 }
 
-/// Adds the notebook of a page that has Python, and the same with its tasks solved. Returns links.
+/// Adds the notebook of a page with Python code, and a copy with solved tasks. Returns links.
 fn add_notebook(page: &mut Page) -> String {
     if page.cells.is_empty() {
         return String::new();
@@ -112,7 +112,7 @@ fn add_notebook(page: &mut Page) -> String {
     )
 }
 
-/// A link to the slides of a numbered chapter.
+/// Returns a link to the slides of a numbered chapter.
 fn deck_link(page: &Page) -> String {
     let root = path_to_root(&page.path);
     let link = page.deck().map(|path| {

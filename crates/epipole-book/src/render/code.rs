@@ -5,13 +5,13 @@ use super::listing::shown_lines;
 use super::writer::Writer;
 use crate::problems::Place;
 
-/// Longest line of code that a reader sees, in characters; more makes even a wide page scroll.
+/// Maximum length of a visible line of code, characters; longer lines make even a wide page scroll.
 pub(crate) const LONGEST_LINE: usize = 66;
 
-/// The button that copies the visible code; a script activates it.
+/// Button that copies the visible code; a script activates it.
 pub(crate) const COPY: &str = "<button type=\"button\" class=\"copy\" hidden>Copy</button>";
 
-/// The button that runs JavaScript; a script activates it.
+/// Returns a button that runs JavaScript; a script activates it.
 pub(crate) fn run_button(label: &str, hint: &str) -> String {
     format!(
         "<button type=\"button\" class=\"run\" data-label=\"{label}\" hidden>\
@@ -28,8 +28,8 @@ pub(crate) struct Heading {
     pub(crate) html: String,
 }
 
-/// Takes the name of a listing or a task for the page. False, with a problem, if it is none or was
-/// taken before.
+/// Registers the name of a listing or a task on the page. False, with a problem, if it is invalid
+/// or already used.
 pub(crate) fn take_name(page: &mut Writer, name: &str, place: &Place) -> bool {
     let is_name =
         |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
@@ -44,7 +44,7 @@ pub(crate) fn take_name(page: &mut Writer, name: &str, place: &Place) -> bool {
     true
 }
 
-/// The lines of a fence that a page shows; lines that are too long are reported.
+/// Returns the visible lines of a fence; lines that are too long are reported.
 pub(crate) fn shown(fence: &Fence, page: &Writer) -> String {
     let mut shown = String::new();
     for (number, line) in shown_lines(&fence.code, &fence.language) {

@@ -6,37 +6,35 @@ use super::writer::Writer;
 use crate::parse::text::{self, Entry, Request};
 use crate::resolve::book::Book;
 
-/// A directive of the authors' notation. Each stage uses only what the stages before it use.
+/// A directive of the authors' notation. Each stage uses only the results of the one before.
 pub(crate) trait Directive: Sized + Send + 'static {
-    /// Name behind `{{#`.
+    /// Name after `{{#`.
     const NAME: &'static str;
 
-    /// The directive once the core has answered.
+    /// The resolved directive.
     type Resolved: Send + 'static;
 
-    /// Takes the directive's words apart, without asking anybody but the content folder.
+    /// Parses the directive, using nothing but the content folder.
     ///
-    /// # Errors
-    /// A sentence: what is wrong, and how to write it.
+    /// # Errors A message with the problem and the correct syntax.
     fn parse(request: &Request, parser: &Parser) -> Result<Self, String>;
 
-    /// Asks the core.
+    /// Resolves the directive, using the core.
     ///
-    /// # Errors
-    /// A sentence: what is wrong, and what would be right.
+    /// # Errors A message with the problem and its remedy.
     fn resolve(self, book: &Book) -> Result<Self::Resolved, String>;
 
-    /// Makes HTML, and notes on the page what it needs.
+    /// Renders the directive, and adds its requirements to the page.
     fn render(resolved: Self::Resolved, page: &mut Writer) -> Insert;
 }
 
-/// A directive of any kind that is parsed.
+/// A parsed directive of any kind.
 pub(crate) struct Parsed(Box<Resolve>);
 
-/// A directive of any kind that is resolved.
+/// A resolved directive of any kind.
 pub(crate) struct Resolved(Box<Render>);
 
-/// The stages of a directive that are still to come, its own type erased.
+/// Remaining stages of a directive, with its type erased.
 type Resolve = dyn FnOnce(&Book) -> Option<Resolved> + Send;
 type Render = dyn FnOnce(&mut Writer) -> Insert + Send;
 
@@ -49,7 +47,7 @@ pub(crate) type ParsedText = text::Text<Parsed>;
 /// A resolved text.
 pub(crate) type Text = text::Text<Resolved>;
 
-/// The line of a directive in the vocabulary.
+/// Returns the entry of a directive in the vocabulary.
 pub(crate) const fn entry<D: Directive>() -> Entry<Parsed> {
     Entry {
         name: D::NAME,
@@ -79,18 +77,18 @@ impl ParsedText {
 }
 
 impl Text {
-    /// A whole text with paragraphs, headings and so on.
+    /// Renders a text with paragraphs, headings and other blocks.
     pub(crate) fn block(self, page: &mut Writer) -> String {
         markdown::block(&self.inserted(page), page)
     }
 
-    /// A text that stands inside a paragraph, such as a caption.
+    /// Renders a text inside a paragraph, such as a caption.
     pub(crate) fn inline(self, page: &mut Writer) -> String {
         markdown::inline(&self.inserted(page), page)
     }
 
-    /// The text with its directives rendered, in their order. They come before the text that they
-    /// stand in; their words for the search belong into it.
+    /// Renders the directives of the text, in order. They are rendered before the text around them,
+    /// which their words for the search index belong to.
     fn inserted(self, page: &mut Writer) -> Markdown {
         let (mut inserts, mut found) = (Vec::new(), Vec::new());
         for directive in self.directives {

@@ -1,4 +1,4 @@
-//! Colors for listings, given at build time: comments, strings, numbers, keywords and calls.
+//! Syntax highlighting at build time: comments, strings, numbers, keywords and calls.
 
 use crate::html::escape;
 
@@ -60,12 +60,11 @@ const JAVASCRIPT: &[&str] = &[
 struct Language {
     keywords: &'static [&'static str],
     comment: &'static str,
-    /// Whether `'` opens a string; in Rust it may be a lifetime.
+    /// Whether `'` starts a string; in Rust it may start a lifetime.
     single_quotes: bool,
 }
 
-/// The listing as HTML: `<span class="hl-…">` around what has a color. A language that is not
-/// known stays plain.
+/// Highlights a listing with `<span class="hl-…">`. An unknown language stays plain.
 pub fn highlight(code: &str, language: &str) -> String {
     let language = match language {
         "python" | "py" => Language {
@@ -109,7 +108,7 @@ pub fn highlight(code: &str, language: &str) -> String {
     html
 }
 
-/// Length in bytes and kind of what `rest` starts with.
+/// Returns length in bytes and kind of the token at the start of `rest`.
 fn token(rest: &str, first: char, language: &Language) -> (usize, Option<&'static str>) {
     if rest.starts_with(language.comment) {
         return (rest.find('\n').unwrap_or(rest.len()), Some("comment"));
@@ -146,7 +145,7 @@ fn token(rest: &str, first: char, language: &Language) -> (usize, Option<&'stati
     (first.len_utf8(), None)
 }
 
-/// The length of a string that starts and ends with `quote`.
+/// Returns the length of a string that starts and ends with `quote`.
 fn quoted(rest: &str, quote: char) -> usize {
     let mut escaped = false;
     for (at, letter) in rest.char_indices().skip(1) {

@@ -1,4 +1,4 @@
-//! The HTML that takes a directive's place in its text.
+//! The HTML that replaces a directive.
 
 use super::writer::Writer;
 use crate::html::escape;
@@ -9,24 +9,24 @@ use crate::problems::Place;
 pub(crate) enum Insert {
     /// A printed number.
     Value(String),
-    /// Something inside a paragraph, and its words for the search.
+    /// Inline content, with its text for the search index.
     Inline { html: String, text: String },
-    /// Something that is a paragraph of its own.
+    /// Content that forms its own paragraph.
     Block { html: String },
-    /// The opening of a block that extends to its end, likewise a paragraph of its own.
+    /// The opening of a block, which forms its own paragraph.
     Opening(Box<dyn Block>),
 }
 
-/// A block of words and fences between two directives.
+/// A block of text and fences between two directives.
 pub(crate) trait Block {
-    /// The paragraph that ends it.
+    /// Content of the paragraph that ends it.
     fn end(&self) -> &'static str;
 
-    /// Returns the HTML. `words` come before the fences.
+    /// Renders the block. `words` come before the fences.
     fn render(&self, page: &mut Writer, words: Words, fences: &[Fence], place: &Place) -> String;
 }
 
-/// The words of a block.
+/// Text of a block.
 #[derive(Default)]
 pub(crate) struct Words {
     pub(crate) html: String,
@@ -36,26 +36,26 @@ pub(crate) struct Words {
 /// A fence inside a block.
 pub(crate) struct Fence {
     pub(crate) language: String,
-    /// The word behind the language.
+    /// The word after the language.
     pub(crate) word: String,
     pub(crate) code: String,
-    /// The line of the fence itself.
+    /// First line of the fence.
     pub(crate) place: Place,
 }
 
 impl Insert {
-    /// Nothing at all.
+    /// Creates an empty insert.
     pub(crate) fn nothing() -> Insert {
         Insert::inline(String::new())
     }
 
-    /// Something inside a paragraph without words of its own.
+    /// Creates an inline insert without text for the search index.
     pub(crate) fn inline(html: String) -> Insert {
         let text = String::new();
         Insert::Inline { html, text }
     }
 
-    /// As plain text, or LaTeX.
+    /// Returns the insert as plain text or LaTeX.
     pub(crate) fn text(&self) -> String {
         match self {
             Insert::Value(text) | Insert::Inline { text, .. } => text.clone(),
@@ -63,7 +63,7 @@ impl Insert {
         }
     }
 
-    /// As HTML. A number gets a real minus sign.
+    /// Returns the insert as HTML. Numbers get a real minus sign.
     pub(crate) fn html(&self) -> String {
         match self {
             Insert::Value(text) => {

@@ -16,7 +16,7 @@ use std::path::Path;
 /// Page and number of each figure, by its anchor.
 type Figures = BTreeMap<String, (String, String)>;
 
-/// Fills in the tokens of all pages. `panels` are those of all pages, in their order.
+/// Fills in the tokens of all pages. `panels` are those of all pages, in order.
 pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
     let figures = figures(pages);
     check_figures(pages, &figures, problems);
@@ -43,7 +43,7 @@ pub(crate) fn join(pages: &mut [Page], panels: &[String], problems: &Problems) {
                 .unwrap_or_default(),
             CHAPTERS_OF_FIGURE => links_to(numbered.get(name), &root),
             SOLVED => {
-                // Chapters name each other's files.
+                // Chapters refer to each other's Markdown files.
                 let wanted = Path::new(name).with_extension("html");
                 let page = paths.iter().position(|path| Path::new(path) == wanted);
                 page.map(|page| marks[page].clone()).unwrap_or_default()
@@ -92,7 +92,7 @@ fn figures(pages: &[Page]) -> Figures {
     figures
 }
 
-/// Address and number of each figure in a numbered chapter, by its name.
+/// Collects address and number of each figure in a numbered chapter, by its name.
 fn in_chapters(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
     let mut named: BTreeMap<String, Vec<_>> = BTreeMap::new();
     for page in pages.iter().filter(|page| page.number.is_some()) {
@@ -105,7 +105,7 @@ fn in_chapters(pages: &[Page]) -> BTreeMap<String, Vec<(String, String)>> {
     named
 }
 
-/// The places of a figure in the book, each with its address and number.
+/// Renders links to the occurrences of a figure in the book, by address and number.
 fn links_to(places: Option<&Vec<(String, String)>>, root: &str) -> String {
     let Some(places) = places else {
         return String::new();
@@ -131,7 +131,7 @@ fn check_figures(pages: &[Page], figures: &Figures, problems: &Problems) {
     }
 }
 
-/// The page with the list of references; reported if there is none and something is cited.
+/// Returns the page with the list of references; a missing one is reported if something is cited.
 fn page_of_references(pages: &[Page], problems: &Problems) -> String {
     let list = pages.iter().find(|page| page.has_references);
     let cites = pages.iter().find_map(|page| page.cites.clone());
@@ -142,7 +142,7 @@ fn page_of_references(pages: &[Page], problems: &Problems) -> String {
     list.map(|page| page.path.clone()).unwrap_or_default()
 }
 
-/// Reports links to pages or anchors that do not exist, and anchors that exist twice.
+/// Reports links to pages or anchors that do not exist, and duplicate anchors.
 fn check_links(pages: &[Page], problems: &Problems) {
     let mut anchors: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
     for page in pages {
@@ -183,7 +183,7 @@ fn check_links(pages: &[Page], problems: &Problems) {
     }
 }
 
-/// All `id`s of a page.
+/// Returns all `id`s of a page.
 fn ids_of(html: &str) -> Vec<String> {
     let mut ids = Vec::new();
     let mut rest = html;

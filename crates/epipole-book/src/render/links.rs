@@ -1,16 +1,15 @@
-//! Links and pictures of a text: relative. Whether they lead anywhere is checked when all pages are
-//! known.
+//! Relative links and pictures of a text. Their targets are checked when all pages are known.
 
 use super::page::{Link, WantedFile};
 use super::writer::Writer;
 use crate::html::escape;
 use crate::problems::Place;
 
-/// The folder of the Lab below that of the site.
+/// Folder of the Lab in the site.
 pub(crate) const LAB_FOLDER: &str = "lab";
 
-/// A link as it goes into the page. Links between chapters name the Markdown file, and the
-/// anchor of a section or a figure.
+/// Converts a link for the page. Links between chapters name the Markdown file, and the anchor of a
+/// section or a figure.
 pub(crate) fn rewrite(writer: &mut Writer, written: &str, place: Place) -> String {
     if is_external(written) {
         return written.to_owned();
@@ -61,7 +60,7 @@ pub(crate) fn rewrite(writer: &mut Writer, written: &str, place: Place) -> Strin
     written.to_owned()
 }
 
-/// A picture of the content folder as HTML.
+/// Renders a picture of the content folder.
 pub(crate) fn image(
     writer: &mut Writer,
     written: &str,
@@ -97,9 +96,8 @@ pub(crate) fn image(
     )
 }
 
-/// A link to the Lab, `lab/` with parameters or without: it is beside the book or, until it is
-/// built, a page that says so. Written out, so that no server needs to look for the page of a
-/// folder.
+/// Converts a link to the Lab, `lab/` with or without parameters, or to its placeholder page until
+/// the Lab is built. Names the page explicitly, so that servers need not resolve a folder.
 fn to_the_lab(own: &str, written: &str) -> Option<String> {
     let (path, parameters) = match written.find('?') {
         Some(at) => written.split_at(at),
@@ -109,13 +107,13 @@ fn to_the_lab(own: &str, written: &str) -> Option<String> {
     is_the_lab.then(|| format!("{path}index.html{parameters}"))
 }
 
-/// `https:`, `mailto:` and the like.
+/// Whether a link starts with `https:`, `mailto:` or another scheme.
 pub(crate) fn is_external(written: &str) -> bool {
     let scheme = written.split(['/', '#', '?']).next().unwrap_or("");
     scheme.contains(':') || written.starts_with("//")
 }
 
-/// The path that `written` means on the page at `own`.
+/// Resolves the path `written` relative to the page at `own`.
 pub(crate) fn resolve_path(own: &str, written: &str) -> String {
     let mut parts: Vec<&str> = own.split('/').collect();
     parts.pop();

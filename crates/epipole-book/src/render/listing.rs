@@ -1,13 +1,13 @@
-//! Listings of code: the lines shown, and their HTML.
+//! Code listings: visible lines and HTML.
 
 use super::highlight::highlight;
 use crate::html::escape;
 use pulldown_cmark::CodeBlockKind;
 
-/// A comment line that hides itself and the rest of the listing.
+/// Comment lines that hide themselves and the rest of the listing.
 const HIDES_THE_REST: [&str; 2] = ["# hidden", "// hidden"];
 
-/// A listing outside of `{{#listing}}` as HTML, highlighted, with a label of its kind.
+/// Renders a listing outside of `{{#listing}}`, highlighted, with a label of its kind.
 pub(crate) fn listing(code: &str, kind: &CodeBlockKind) -> String {
     let language = info(kind).0;
     let code = match language {
@@ -20,7 +20,7 @@ pub(crate) fn listing(code: &str, kind: &CodeBlockKind) -> String {
     pre(&code, language)
 }
 
-/// The language of a fence and the word behind it, such as `python` and `opencv`.
+/// Returns the language of a fence and the word after it, such as `python` and `opencv`.
 pub(crate) fn info<'a>(kind: &'a CodeBlockKind) -> (&'a str, &'a str) {
     let info = match kind {
         CodeBlockKind::Fenced(info) => info.as_ref(),
@@ -31,7 +31,7 @@ pub(crate) fn info<'a>(kind: &'a CodeBlockKind) -> (&'a str, &'a str) {
     (language, words.next().unwrap_or(""))
 }
 
-/// Code in a box that can scroll.
+/// Renders code in a scrollable box.
 pub(crate) fn pre(code: &str, language: &str) -> String {
     let class = match language {
         "" => String::new(),
@@ -51,11 +51,11 @@ pub(crate) fn pre(code: &str, language: &str) -> String {
     )
 }
 
-/// The lines of `code` for the reader, numbered from 0: without assertions, without lines that
-/// Rust's documentation hides, without lines below `# hidden`, and without repeated empty lines.
+/// Returns the visible lines of `code`, numbered from 0: without assertions, lines hidden by
+/// rustdoc's rules, lines below `# hidden`, and repeated empty lines.
 pub(crate) fn shown_lines<'a>(code: &'a str, language: &str) -> Vec<(usize, &'a str)> {
     let mut shown: Vec<(usize, &str)> = Vec::new();
-    // Number of brackets that an assertion has opened and not closed.
+    // Number of unclosed brackets of an assertion.
     let mut open = 0;
     for (number, line) in code.lines().enumerate() {
         let words = line.trim();
@@ -95,7 +95,7 @@ fn is_assertion(words: &str, language: &str) -> bool {
     }
 }
 
-/// Number of brackets that a line opens minus those that it closes.
+/// Returns the number of opening minus closing brackets of a line.
 fn brackets(line: &str) -> i32 {
     let count = |letter| match letter {
         '(' | '[' | '{' => 1,
@@ -105,7 +105,7 @@ fn brackets(line: &str) -> i32 {
     line.chars().map(count).sum()
 }
 
-/// As in Rust's own documentation, a line that starts with `# ` is run but not shown.
+/// Whether a line is run but not shown: it starts with `# `, as in rustdoc.
 fn is_hidden_rust(line: &str) -> bool {
     let line = line.trim_start();
     line.trim_end() == "#" || line.starts_with("# ")
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(shown(code, "rust"), "let a = 1;\nprintln!(\"{a}\");");
         let code = "f();\nconsole.assert(\n  a === 1,\n);\ng();\n";
         assert_eq!(shown(code, "js"), "f();\ng();");
-        // Words that only look like one.
+        // These only look like assertions.
         assert_eq!(shown("assertion = 1\n", "python"), "assertion = 1");
     }
 

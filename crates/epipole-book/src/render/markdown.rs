@@ -28,7 +28,7 @@ pub(crate) struct Markdown {
     pub(crate) found: Vec<String>,
 }
 
-/// Data that the events of a text refer to.
+/// Context of the events of a text.
 struct Text<'a> {
     source: &'a Source,
     inserts: &'a [Insert],
@@ -36,7 +36,7 @@ struct Text<'a> {
     footnotes: HashMap<CowStr<'a>, Vec<Located<'a>>>,
 }
 
-/// A whole text with paragraphs, headings and so on.
+/// Renders a text with paragraphs, headings and other blocks.
 pub(crate) fn block(markdown: &Markdown, page: &mut Writer) -> String {
     let (events, text) = parsed(markdown);
     let starts = section_starts(&events);
@@ -48,7 +48,7 @@ pub(crate) fn block(markdown: &Markdown, page: &mut Writer) -> String {
     html
 }
 
-/// A text inside a paragraph, such as a caption.
+/// Renders a text inside a paragraph, such as a caption.
 pub(crate) fn inline(markdown: &Markdown, page: &mut Writer) -> String {
     let (events, text) = parsed(markdown);
     let html = page.events(&events, &text, true);
@@ -75,7 +75,7 @@ fn parsed(markdown: &Markdown) -> (Vec<Located<'_>>, Text<'_>) {
 }
 
 impl Writer<'_> {
-    /// HTML of a run of events. `tight` leaves out the tags of paragraphs.
+    /// Renders a range of events. `tight` omits the tags of paragraphs.
     fn events(&mut self, events: &[Located], text: &Text, tight: bool) -> String {
         let mut out: Vec<Event> = Vec::new();
         // Length of the punctuation after a formula that is already written, bytes of the next
@@ -204,8 +204,8 @@ impl Writer<'_> {
                     None => self.report(place(), format!("no footnote is called \"{label}\"")),
                 },
                 Event::SoftBreak | Event::HardBreak | Event::Rule | Event::End(_) => {
-                    // The end of a list's item, say. Within a word nothing ends but emphasis and
-                    // links.
+                    // For example the end of a list item. Only emphasis and links end within a
+                    // word.
                     if !matches!(
                         event,
                         Event::End(TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link)
@@ -223,8 +223,8 @@ impl Writer<'_> {
         html
     }
 
-    /// A block between two directives: the HTML, and the index after its end. It begins before
-    /// `from`.
+    /// Renders a block between two directives that begins before `from`. Returns the HTML and the
+    /// index after its end.
     fn code_block(
         &mut self,
         opening: &dyn Block,
@@ -271,7 +271,7 @@ impl Writer<'_> {
         }
         self.page.start_section(&id, &title);
         let html = self.events(inner, text, true);
-        // The search shows the title beside the words of its section.
+        // The search displays the title separately from the text of its section.
         self.page.words.clear();
         let heading = Heading {
             level,

@@ -1,4 +1,5 @@
-//! LaTeX to MathML, at build time: no script on the page, selectable, readable by screen readers.
+//! Conversion of LaTeX to MathML at build time, which needs no script, can be selected, and is
+//! accessible to screen readers.
 
 use crate::html::escape;
 use pulldown_latex::config::{DisplayMode, RenderConfig};
@@ -13,10 +14,9 @@ pub enum Layout {
     Display,
 }
 
-/// A formula as MathML, with its LaTeX as an annotation.
+/// Converts a formula to MathML, with its LaTeX as an annotation.
 ///
-/// # Errors
-/// The problem of the LaTeX, in one line.
+/// # Errors The error in the LaTeX, in one line.
 pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let latex = latex.trim();
     if latex.is_empty() {
@@ -38,7 +38,7 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let mut html = String::new();
     let events = events.into_iter().map(Ok::<_, std::convert::Infallible>);
     push_mathml(&mut html, events, config).map_err(|error| error.to_string())?;
-    // The renderer names the space of `\ ` and escapes the name, so that letters would be shown.
+    // The renderer writes `\ ` as an entity and escapes it, which would display its name.
     let html = html.replace("&amp;nbsp;", "\u{a0}");
     let html = with_accents(&escape_leaves(&html));
     if html.contains("<merror") || html.contains(" style=") {
@@ -60,7 +60,7 @@ pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     })
 }
 
-/// Escapes the text inside leaf elements, which the renderer leaves as it is: `<mo><</mo>`.
+/// Escapes the text inside leaf elements, which the renderer leaves unescaped: `<mo><</mo>`.
 fn escape_leaves(html: &str) -> String {
     let mut escaped = String::with_capacity(html.len());
     let mut rest = html;
@@ -92,8 +92,8 @@ fn escape_leaves(html: &str) -> String {
     escaped
 }
 
-/// The renderer sets accents as letters, which browsers put small and high above their base. This
-/// makes them accents, and takes the marks that fonts draw for that.
+/// Marks accents as such. The renderer emits them as letters, which browsers place small and high
+/// above their base. Also replaces them by the characters that fonts provide for accents.
 fn with_accents(html: &str) -> String {
     const START: &str = "<mover>";
     const END: &str = "</mover>";
@@ -123,7 +123,7 @@ fn with_accents(html: &str) -> String {
     done + rest
 }
 
-/// Escapes characters that are not yet escaped.
+/// Escapes characters that are not escaped yet.
 fn escape_once(text: &str) -> String {
     let plain = text
         .replace("&lt;", "<")
@@ -136,12 +136,12 @@ fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Signs with a space on both sides in [`words`].
+/// Operators with spaces around them in [`words`].
 const SPACED: &[&str] = &[
     "=", "≈", "∼", "<", ">", "≤", "≥", "+", "−", "·", "×", "→", "∈",
 ];
 
-/// Letters and signs of a formula in MathML, for the search: `x′T F x = 0`.
+/// Returns the text of a MathML formula for the search index: `x′T F x = 0`.
 pub(super) fn words(html: &str) -> String {
     let shown = html.split("<annotation").next().unwrap_or(html);
     let mut words = String::new();
@@ -150,7 +150,7 @@ pub(super) fn words(html: &str) -> String {
         let text = text.replace("&lt;", "<").replace("&gt;", ">");
         let text = text.replace("&amp;", "&");
         let text = text.trim_matches([' ', '\n', '\u{2061}', '\u{2062}']);
-        // Cells of a matrix, numerator and denominator.
+        // Cells of a matrix, or numerator and denominator.
         if tag == "/mtd" || tag.starts_with("mtd") || tag.starts_with("mfrac") {
             words.push(' ');
         }
@@ -162,7 +162,7 @@ pub(super) fn words(html: &str) -> String {
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Letter or digit of a mathematical alphabet (bold, script, …) as on a keyboard.
+/// Converts a letter or digit of a mathematical alphabet (bold, script, …) to a plain one.
 fn plain_letter(letter: char) -> char {
     let code = letter as u32;
     let plain = match code {

@@ -1,42 +1,42 @@
-//! A chapter's Python as a notebook: to open, run and change.
+//! A chapter's Python as a Jupyter notebook.
 
 use serde_json::{Value, json};
 
 /// A cell of a notebook.
 #[derive(Debug, Clone)]
 pub enum Cell {
-    /// Words, in Markdown.
+    /// Text, in Markdown.
     Text(String),
     /// Python, with its recorded output.
     Code {
-        /// Unique in the notebook.
+        /// Id, unique in the notebook.
         id: String,
-        /// As it runs.
+        /// Code.
         source: String,
-        /// Empty if nothing, or nothing that is always the same.
+        /// Output; empty if there is none, or none that is reproducible.
         prints: String,
-        /// Solution of the task that begins here.
+        /// Solution of the task that starts here.
         solution: Option<String>,
     },
 }
 
-/// Code in the tasks of a notebook.
+/// Content of task cells in a notebook.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Tasks {
-    /// The beginning, for students.
+    /// The initial code, for students.
     Open,
     /// The solution.
     Solved,
 }
 
 impl Cell {
-    /// Words, without empty lines around them.
+    /// Creates a text cell, without empty lines around the text.
     pub(crate) fn text(words: String) -> Cell {
         Cell::Text(words.trim().to_owned())
     }
 }
 
-/// Path of a page's notebook, from the root of the site.
+/// Returns the path of a page's notebook, from the root of the site.
 pub(crate) fn path(page: &str, tasks: Tasks) -> String {
     let name = page.trim_end_matches(".html").replace('/', "-");
     match tasks {
@@ -45,7 +45,7 @@ pub(crate) fn path(page: &str, tasks: Tasks) -> String {
     }
 }
 
-/// The notebook of a chapter, in the format 4.5.
+/// Returns the notebook of a chapter, in nbformat 4.5.
 pub(crate) fn notebook(title: &str, cells: &[Cell], tasks: Tasks) -> String {
     let (names, packages) = needs(cells);
     let head = format!(
@@ -93,7 +93,7 @@ pub(crate) fn notebook(title: &str, cells: &[Cell], tasks: Tasks) -> String {
     format!("{notebook:#}\n")
 }
 
-/// Packages that the cells import, as words and as arguments of `pip install`.
+/// Returns the packages that the cells import, as text and as arguments of `pip install`.
 fn needs(cells: &[Cell]) -> (&'static str, &'static str) {
     let imports = |module: &str| {
         let starts = [format!("import {module}"), format!("from {module}")];
@@ -115,7 +115,7 @@ fn text_cell(id: &str, words: &str) -> Value {
     json!({ "cell_type": "markdown", "id": id, "metadata": {}, "source": lines(words) })
 }
 
-/// Text as notebooks keep it: a list of lines, each with its end.
+/// Splits a text into lines with their line feeds, as notebooks store it.
 fn lines(text: &str) -> Vec<&str> {
     text.split_inclusive('\n').collect()
 }

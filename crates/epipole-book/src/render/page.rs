@@ -8,11 +8,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A heading of a page.
 #[derive(Debug, Clone)]
 pub struct Heading {
-    /// 1 to 6.
+    /// Level, 1 to 6.
     pub level: u8,
     /// Its anchor.
     pub id: String,
-    /// Its words.
+    /// Plain text.
     pub title: String,
     /// Its HTML, without the heading tags.
     pub html: String,
@@ -21,13 +21,13 @@ pub struct Heading {
 /// A figure of a page.
 #[derive(Debug, Clone)]
 pub struct FigureEntry {
-    /// Such as `ransac-race`.
+    /// Name, such as `ransac-race`.
     pub name: String,
     /// Its permanent anchor.
     pub id: String,
-    /// `4.1`.
+    /// Number, such as `4.1`.
     pub number: String,
-    /// Path of its light poster for a column, in the site.
+    /// Path of its light poster at column width, in the site.
     pub poster: String,
     /// Description of its initial state.
     pub description: String,
@@ -35,20 +35,20 @@ pub struct FigureEntry {
     pub place: Place,
 }
 
-/// A link to another place of the book, to be checked when all pages are known.
+/// An internal link, to be checked when all pages are known.
 #[derive(Debug, Clone)]
 pub struct Link {
     /// Path of the page, such as `ransac.html`.
     pub page: String,
     /// Fragment, without `#`.
     pub fragment: Option<String>,
-    /// As the author wrote it.
+    /// The link as written by the author.
     pub written: String,
     /// Location in the chapter.
     pub place: Place,
 }
 
-/// A stretch of a page that the search can find.
+/// A section of a page in the search index.
 #[derive(Debug, Clone, Deserialize, Serialize)]
 pub struct Section {
     /// Path and anchor.
@@ -60,7 +60,7 @@ pub struct Section {
     /// Title of the section.
     #[serde(rename = "t")]
     pub title: String,
-    /// Its words.
+    /// Plain text.
     #[serde(rename = "w")]
     pub words: String,
 }
@@ -79,7 +79,7 @@ pub struct QuizEntry {
 pub struct Solvable {
     /// Its anchor.
     pub id: String,
-    /// Hash of its wording: a solution of another wording does not count.
+    /// Hash of its wording: solutions of other wordings do not count.
     pub hash: String,
 }
 
@@ -100,14 +100,14 @@ pub struct PanelRequest {
     pub sizes: Vec<(u32, f64)>,
 }
 
-/// A file of the content folder, copied to the same path of the site.
+/// A file of the content folder to copy to the same path of the site.
 #[derive(Debug, Clone)]
 pub struct WantedFile {
-    /// From the content folder.
+    /// Path in the content folder.
     pub path: String,
     /// Location in the chapter.
     pub place: Place,
-    /// The problem if there is no such file.
+    /// Error message if the file does not exist.
     pub missing: String,
 }
 
@@ -116,17 +116,17 @@ pub struct WantedFile {
 pub struct Page {
     /// Path in the site, such as `epipolar.html`.
     pub path: String,
-    /// The chapter's name in `SUMMARY.md`.
+    /// Name of the chapter in `SUMMARY.md`.
     pub title: String,
-    /// The chapter's number, such as `4`.
+    /// Number of the chapter, such as `4`.
     pub number: Option<String>,
     /// Path of the page that it belongs to, if the contents do not list it.
     pub parent: Option<String>,
     /// The body.
     pub html: String,
-    /// The first paragraph in plain words, for search engines.
+    /// First paragraph as plain text, for search engines.
     pub description: String,
-    /// Estimate for a chapter; other pages have none.
+    /// Estimated reading time of a chapter, minutes.
     pub reading_time_min: Option<usize>,
     /// All headings.
     pub headings: Vec<Heading>,
@@ -138,44 +138,44 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Names of listings and tasks.
     pub listings: Vec<String>,
-    /// Whether it has JavaScript that readers run.
+    /// Whether readers can run JavaScript in it.
     pub has_programs: bool,
     /// Tasks that are solved in the page.
     pub tasks: Vec<Solvable>,
     /// Cells of the chapter's notebook.
     pub cells: Vec<Cell>,
-    /// Letters that the chapter's figures also draw.
+    /// Symbols of the chapter that its figures also draw.
     pub symbols: Vec<String>,
-    /// Whether the list of references is here.
+    /// Whether it contains the list of references.
     pub has_references: bool,
     /// Quizzes.
     pub quizzes: Vec<QuizEntry>,
-    /// Goals of its figures that it shows, each `figure/goal`.
+    /// Visible goals of its figures, each `figure/goal`.
     pub goals: BTreeSet<String>,
-    /// Figures that it refers to, and where.
+    /// Figures that it refers to, with the locations.
     pub wanted_figures: Vec<(String, Place)>,
-    /// Terms that it uses, and where.
+    /// Terms that it uses, with the locations.
     pub terms: Vec<(String, Place)>,
-    /// Terms that it defines, and where.
+    /// Terms that it defines, with the locations.
     pub definitions: Vec<(String, Place)>,
-    /// Terms of the glossary, if that is here, and their places in its file.
+    /// Terms of the glossary with their locations in its file, if the page contains it.
     pub glossary: Option<Vec<(String, Place)>>,
     /// Location of the first citation.
     pub cites: Option<Place>,
     /// Panels of its figures.
     pub panels: Vec<PanelRequest>,
-    /// Files that were made for it, by their path in the site.
+    /// Files generated for it, by their path in the site.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// Files that it links to or shows.
+    /// Files that it links to or displays.
     pub wanted_files: Vec<WantedFile>,
-    /// Pages that belong to it; empty once all pages are rendered.
+    /// Subpages; empty once all pages are rendered.
     pub parts: Vec<Page>,
-    /// Words of the section that is being rendered.
+    /// Text of the section being rendered.
     pub(crate) words: String,
 }
 
 impl Page {
-    /// The number of the next figure: `4.1` in a numbered chapter, else `1`.
+    /// Returns the number of the next figure: `4.1` in a numbered chapter, else `1`.
     pub(crate) fn next_figure_number(&self) -> String {
         let count = self.figures.len() + 1;
         match &self.number {
@@ -184,20 +184,21 @@ impl Page {
         }
     }
 
-    /// Path of its slides, from the root of the site; numbered chapters have some.
+    /// Returns the path of its slides from the root of the site; only numbered chapters have
+    /// slides.
     pub(crate) fn deck(&self) -> Option<String> {
         let name = self.path.trim_end_matches(".html").replace('/', "-");
         self.number.as_ref().map(|_| format!("slides/{name}.html"))
     }
 
-    /// Its goals between blanks, for an attribute.
+    /// Returns its goals, separated by spaces, for an attribute.
     pub(crate) fn goal_list(&self) -> String {
         let goals: Vec<&str> = self.goals.iter().map(String::as_str).collect();
         goals.join(" ")
     }
 
-    /// Attribute of the last figure's picture: the first of a page may be visible at once, the
-    /// others load lazily.
+    /// Returns an attribute of the last figure's picture: the first of a page may be visible at
+    /// once, the others load lazily.
     pub(crate) fn loading_of_last_figure(&self) -> &'static str {
         match self.figures.len() {
             1 => "fetchpriority=\"high\"",
@@ -205,14 +206,14 @@ impl Page {
         }
     }
 
-    /// Takes the first paragraph as the description.
+    /// Sets the description, unless the page has one already.
     pub(crate) fn describe(&mut self, words: impl FnOnce() -> String) {
         if self.description.is_empty() {
             self.description = shorten(&words(), 160);
         }
     }
 
-    /// Ends a section for the search and starts the next.
+    /// Ends a section of the search index and starts the next.
     pub(crate) fn start_section(&mut self, id: &str, title: &str) {
         self.end_section();
         let url = format!("{}#{id}", self.path);
@@ -234,7 +235,7 @@ impl Page {
     }
 }
 
-/// At most `limit` characters, cut between words.
+/// Shortens a text to at most `limit` characters, cut between words.
 fn shorten(words: &str, limit: usize) -> String {
     let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
     if words.chars().count() <= limit {

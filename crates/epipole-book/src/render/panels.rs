@@ -1,6 +1,6 @@
-//! The live figures before any script runs: picture, controls and numbers in a declarative shadow
-//! root, so that nothing moves when a figure starts. They are written by the elements' own code, in
-//! `web/prerender.mjs`; all figures of the book are rendered in one run.
+//! Figures before any script runs: picture, controls and numbers in a declarative shadow root, so
+//! that the layout does not shift when a figure starts. `web/prerender.mjs` renders them with the
+//! elements' own code, for all figures of the book in one run.
 
 use super::page::PanelRequest;
 use crate::hash::fnv;
@@ -15,25 +15,24 @@ use std::process::{Command, Stdio};
 pub(crate) const STYLES: &str = "{{figure.css}}";
 
 const SCRIPT: &str = "web/prerender.mjs";
-/// The elements' code, which decides the answer as the requests do.
+/// Code of the elements, which determines the result together with the requests.
 const SOURCES: [&str; 3] = [SCRIPT, "web/src", "web/package-lock.json"];
 
-/// The last answer of the script, with a hash of all that it depends on.
+/// The last result of the script, with a hash of its inputs.
 #[derive(Serialize, Deserialize)]
 struct Panels {
     key: u64,
     panels: Vec<String>,
 }
 
-/// Whether the project can make panels.
+/// Whether the project can render panels.
 pub(crate) fn are_made(project: &Path) -> bool {
     project.join(SCRIPT).is_file()
 }
 
-/// The inside of the shadow root of each figure.
+/// Renders the content of each figure's shadow root.
 ///
-/// # Errors
-/// If the script is missing, fails, or answers something else.
+/// # Errors If the script is missing, fails, or returns an invalid result.
 pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<String>> {
     if requests.is_empty() || !are_made(project) {
         return Ok(Vec::new());
@@ -56,7 +55,7 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
     Ok(answer.panels)
 }
 
-/// Has the script render the panels of `count` requests.
+/// Runs the script for `count` requests.
 fn ask(tools: &Tools, asked: Vec<u8>, count: usize) -> Result<Vec<String>> {
     let mut child = Command::new("node")
         .arg(SCRIPT)

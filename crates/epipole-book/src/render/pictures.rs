@@ -1,23 +1,23 @@
-//! Posters of a figure as `<source>`s and files of the site.
+//! `<source>`s and files for the posters of a figure.
 
 use super::writer::Writer;
 use crate::html::path_to_root;
 use crate::resolve::posters::{Encoded, Posters};
 
-/// Pages of this width have no more room than a phone, or than a column: `web/theme/tokens.css`
-/// keeps the figures of the others wider.
+/// Pages of this width have a figure as narrow as on a phone, then as a column;
+/// `web/theme/tokens.css` keeps the figures of the others wider.
 const PHONE: &str = "(max-width: 551.98px)";
 const COLUMN: &str = "(max-width: 927.98px)";
 const DARK: &str = "(prefers-color-scheme: dark)";
 
-/// The posters of a figure for all widths of a page, light and dark.
+/// Posters of a figure for all widths of a page, light and dark.
 #[derive(Debug, Default)]
 pub(crate) struct Pictures {
-    /// A `<source>` for each. They carry the sizes, since those differ.
+    /// A `<source>` for each, with its size, since sizes differ.
     pub(crate) sources: String,
-    /// The widest, light.
+    /// Path of the widest light one.
     pub(crate) src: String,
-    /// The light one for a column, or for a phone if there is no other: path in the site.
+    /// Path in the site of the light one for a column, or for a phone if it is the only one.
     pub(crate) poster: String,
 }
 
@@ -33,7 +33,7 @@ pub(crate) fn add(page: &mut Writer, name: &str, posters: Posters) -> Pictures {
     let count = posters.0.len();
     for (index, shades) in posters.0.into_iter().enumerate() {
         let width = shades.width;
-        // The widest is for all pages that the ones before leave.
+        // The widest is for all remaining pages.
         let pages = [PHONE, COLUMN].get(index).filter(|_| index + 1 < count);
         let light = add(shades.light, &format!("{width}-light"));
         pictures.src.clone_from(&light.0);

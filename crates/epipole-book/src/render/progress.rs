@@ -3,8 +3,8 @@
 use super::page::{Page, Solvable};
 use crate::html::escape;
 
-/// Placeholder below a small picture for the solved share of its page's quiz, filled in by the
-/// page's script.
+/// Returns a placeholder below a small picture for the solved fraction of its page's quiz, filled
+/// in by the page's script.
 pub(super) fn solved_mark(page: &Page) -> String {
     let quiz = page.quizzes.first();
     quiz.map_or_else(String::new, |quiz| {
@@ -17,8 +17,8 @@ pub(super) fn solved_mark(page: &Page) -> String {
     })
 }
 
-/// A table of all quizzes, and of the tasks and the goals of the figures beside them; the script of
-/// the page fills in the results.
+/// Returns a table of all quizzes, with tasks and goals of figures; the page's script fills in the
+/// results.
 pub(super) fn progress_table(pages: &[Page]) -> String {
     let mut html = String::from(
         "<div class=\"progress\">\n<div class=\"table\"><table>\n<thead><tr><th scope=\"col\">Chapter\
@@ -58,7 +58,7 @@ pub(super) fn progress_table(pages: &[Page]) -> String {
     html
 }
 
-/// A cell that counts the solved among some questions or tasks, and names their wordings.
+/// Returns a cell that counts solved questions or tasks, with the hashes of their wordings.
 fn solved_cell(class: &str, all: &[Solvable]) -> String {
     let wordings: Vec<String> = all
         .iter()

@@ -2,16 +2,16 @@
 
 use super::page::Page;
 
-/// Words of prose, captions and quizzes that a reader takes in per minute.
+/// Reading speed for prose, captions and quizzes, words per minute.
 const WORDS_PER_MINUTE: usize = 200;
 
-/// Minutes at a figure: looking, moving its controls, reaching a goal.
+/// Minutes per figure: looking, moving its controls, reaching a goal.
 const MINUTES_PER_FIGURE: usize = 2;
 
-/// Estimates are given to this many minutes, from twice as many on.
+/// Rounding of estimates of at least twice this, minutes.
 const STEP_MIN: usize = 5;
 
-/// The reading time of a chapter, minutes; other pages have none.
+/// Estimates the reading time of a chapter, minutes; `None` for other pages.
 pub(super) fn reading_time_min(page: &Page) -> Option<usize> {
     page.number.as_ref()?;
     let words = page.sections.iter().map(|section| &section.words);
@@ -19,7 +19,7 @@ pub(super) fn reading_time_min(page: &Page) -> Option<usize> {
     Some(minutes(count, page.figures.len()))
 }
 
-/// The line that says so.
+/// Returns the line below the title with the reading time.
 pub(super) fn reading_time(minutes: Option<usize>) -> String {
     minutes.map_or_else(String::new, |minutes| {
         format!("<div class=\"reading-time\">About {minutes} min</div>\n")

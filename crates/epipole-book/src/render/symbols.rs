@@ -1,19 +1,20 @@
-//! Colored symbols, shared by figures and formulas: if a chapter lists them, they have their colors
-//! in all of its formulas.
+//! Colored symbols, shared by figures and formulas: the symbols that a chapter lists are colored in
+//! all of its formulas.
 
 use crate::html::escape;
 
-/// A letter that figures know.
+/// A symbol that figures draw.
 pub(crate) struct Symbol {
-    /// As a chapter writes it.
+    /// Name in chapters.
     pub(crate) name: &'static str,
-    /// As the figures write it: a pixel and its homogeneous vector are the same place in a picture.
+    /// Name in figures. A pixel and its homogeneous vector share one, as they are the same point of
+    /// a picture.
     pub(crate) drawn: &'static str,
     pub(crate) latex: &'static str,
-    /// Which color it has.
+    /// Color role.
     pub(crate) role: &'static str,
     pub(crate) meaning: &'static str,
-    /// Its mark in the list, in a square of 16.
+    /// Marker in the list, in a square of 16.
     pub(crate) mark: &'static str,
 }
 
@@ -78,17 +79,17 @@ const fn symbol(
     }
 }
 
-/// The letter that a chapter calls `name`.
+/// Returns the symbol that a chapter calls `name`.
 pub(crate) fn find(name: &str) -> Option<&'static Symbol> {
     SYMBOLS.iter().find(|symbol| symbol.name == name)
 }
 
-/// A formula in which the letters `names` carry their color and their name. A letter with an index,
-/// or with a prime that is not in the list, is another letter.
+/// Colors and names the symbols `names` in a formula. A letter with an index, or with a prime that
+/// is not in the list, is another symbol.
 pub(crate) fn mark(html: &str, names: &[String]) -> String {
     const LEAF: &str = "<mi>";
     const PRIME: &str = "<mi>′</mi>";
-    /// MathML of a prime with a transposition, following the letter itself.
+    /// MathML of a transposed prime, after the letter itself.
     const PRIME_TRANSPOSED: &str = "<msup><mi>′</mi><mi>⊤</mi></msup>";
     let mut marked = String::with_capacity(html.len());
     let mut rest = html;
@@ -107,8 +108,7 @@ pub(crate) fn mark(html: &str, names: &[String]) -> String {
         };
         end += prime.map_or(0, str::len);
         let (before, after) = (&rest[..at], &rest[end..]);
-        // With an index, an accent, or with a prime that carries an exponent, it is a letter of
-        // another kind.
+        // With an index, an accent, or a prime that has an exponent, it is another symbol.
         let is_other = ["<msub>", "<msubsup>", "<mover>", "<mover accent=\"true\">"]
             .iter()
             .any(|tag| before.ends_with(tag))

@@ -1,11 +1,11 @@
-//! Tables in boxes that can scroll.
+//! Tables in scrollable boxes.
 
 use crate::html::escape;
 use crate::parse::events::{Located, end_of};
 use pulldown_cmark::{Alignment, Event, Tag, TagEnd};
 
-/// A table. `cell` makes the HTML and the plain words of a cell. If the corner cell is empty, the
-/// first column names the rows.
+/// Renders a table. `cell` returns HTML and plain text of a cell. If the corner cell is empty, the
+/// first column contains row headers.
 pub(super) fn table(
     inner: &[Located],
     alignments: &[Alignment],
@@ -39,7 +39,7 @@ pub(super) fn table(
                     Some(Alignment::Center) => " class=\"center\"",
                     _ => "",
                 };
-                // Not every tool reads a formula as a name; its LaTeX is words.
+                // Not every tool accepts a formula as a name, so its LaTeX is used.
                 let name = if content.starts_with("<math") {
                     let words = escape(&words);
                     format!(

@@ -1,16 +1,16 @@
-//! The terms of all pages: listed by one, defined by another, used by many.
+//! Terms of all pages: listed in the glossary, defined once, used anywhere.
 
 use super::page::Page;
 use crate::html::escape;
 use crate::problems::{Place, Problems, name_list};
 use std::collections::BTreeMap;
 
-/// A key in words.
+/// Converts a key to a name.
 pub(crate) fn name_of(key: &str) -> String {
     key.replace('-', " ")
 }
 
-/// Anchor of a definition on its page.
+/// Returns the anchor of a definition on its page.
 pub(crate) fn anchor_of(key: &str) -> String {
     format!("term-{key}")
 }
@@ -62,7 +62,7 @@ impl Terms {
         }
     }
 
-    /// Link to the definition of a term; `root` leads to the root of the site.
+    /// Returns a link to the definition of a term; `root` is the path to the root of the site.
     pub(super) fn definition(&self, key: &str, root: &str) -> String {
         let Some((path, name)) = self.definitions.get(key) else {
             return String::new();

@@ -1,4 +1,4 @@
-//! Tokens: placeholders in a page for content that is only known once all pages are rendered.
+//! Tokens: placeholders in a page for content that is known only once all pages are rendered.
 
 /// The page with the list of references.
 pub(crate) const PAGE_OF_REFERENCES: &str = "references-page";
@@ -8,9 +8,9 @@ pub(crate) const PAGE_OF_GLOSSARY: &str = "glossary-page";
 pub(crate) const DEFINITION: &str = "definition";
 /// The page of a figure, and its anchor.
 pub(crate) const PAGE_OF_FIGURE: &str = "figure-page";
-/// `Figure 4.1`.
+/// Number of a figure, such as `Figure 4.1`.
 pub(crate) const NUMBER_OF_FIGURE: &str = "figure-number";
-/// Links to all figures of this name in chapters.
+/// Links to all occurrences of this figure in chapters.
 pub(crate) const CHAPTERS_OF_FIGURE: &str = "figure-chapters";
 /// Number of solved questions of a page's quiz.
 pub(crate) const SOLVED: &str = "solved";
@@ -23,7 +23,7 @@ const OPEN: char = '\u{E010}';
 const MIDDLE: char = '\u{E011}';
 const CLOSE: char = '\u{E012}';
 
-/// A token.
+/// Returns a token.
 pub(crate) fn token(kind: &str, name: &str) -> String {
     format!("{OPEN}{kind}{MIDDLE}{name}{CLOSE}")
 }

@@ -1,11 +1,11 @@
-//! Words of Markdown events, and small HTML around them.
+//! Text of Markdown events, and the characters around formulas.
 
 use super::insert::{Insert, substitute};
 use crate::parse::events::Located;
 use pulldown_cmark::{BlockQuoteKind, Event};
 
-/// The marks right before and behind a formula in a line: browsers may break the line on either
-/// side of it, which leaves a bracket or a comma alone.
+/// Returns the punctuation directly before and after an inline formula. Browsers may break the line
+/// on either side of a formula, which would separate a bracket or a comma.
 pub(super) fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t str) {
     let before = match at.checked_sub(1).map(|before| &events[before].0) {
         Some(Event::Text(words)) => {
@@ -26,7 +26,7 @@ pub(super) fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t s
     (before, after)
 }
 
-/// The words of a run of events, without marks.
+/// Returns the plain text of a range of events.
 pub(super) fn plain(events: &[Located], inserts: &[Insert]) -> String {
     let mut words = String::new();
     for (event, _) in events {

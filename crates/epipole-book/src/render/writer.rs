@@ -1,13 +1,13 @@
-//! The page that is being rendered.
+//! The page being rendered.
 
 use super::page::Page;
 use crate::hash::fnv;
 use crate::problems::{Place, Problems};
 
-/// A page that grows as its chapter is rendered.
+/// A page under construction.
 pub(crate) struct Writer<'a> {
     pub(crate) page: Page,
-    /// Letters of the chapter that its figures draw as well.
+    /// Symbols of the chapter that its figures also draw.
     pub(crate) symbols: &'a [String],
     problems: &'a Problems,
     notes: usize,
@@ -23,17 +23,17 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A page that belongs to this one.
+    /// Creates a writer for a subpage of this one.
     pub(crate) fn beside(&self, page: Page) -> Writer<'a> {
         Writer::new(page, self.symbols, self.problems)
     }
 
-    /// Notes a problem.
+    /// Reports a problem.
     pub(crate) fn report(&self, place: Place, message: impl Into<String>) {
         self.problems.report(place, message);
     }
 
-    /// A note in the margin. On a narrow screen, its mark unfolds it below its line.
+    /// Renders a margin note. On a narrow screen, its mark unfolds it below its line.
     pub(crate) fn note(&mut self, html: &str) -> String {
         self.notes += 1;
         let number = self.notes;
@@ -44,7 +44,7 @@ impl<'a> Writer<'a> {
         )
     }
 
-    /// Adds a file to the site under `assets/`, its name made unique by its content. Returns its
+    /// Adds a file to the site under `assets/`, with a hash of its content in its name. Returns its
     /// path from the root of the site.
     pub(crate) fn add_asset(&mut self, name: &str, extension: &str, bytes: Vec<u8>) -> String {
         let path = format!("assets/{name}-{:016x}.{extension}", fnv(&bytes));

@@ -15,13 +15,13 @@ type Settings = [(String, String)];
 /// A figure in a state.
 type State = (String, Vec<(String, String)>);
 
-/// The data for all directives, shared by several threads.
+/// Data for all directives, shared by several threads.
 pub(crate) struct Book<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) gallery: &'a dyn Gallery,
     pub(crate) references: References,
     cache: Cache,
-    /// Medium of the posters; a check of the content draws none.
+    /// Medium of the posters; `None` for a check of the content, which draws none.
     medium: Option<Medium>,
     facts: Mutex<BTreeMap<State, Arc<Facts>>>,
 }
@@ -46,10 +46,9 @@ impl<'a> Book<'a> {
         }
     }
 
-    /// Facts of a figure in a state, after its computations.
+    /// Returns the facts of a figure in a state, after its computations.
     ///
-    /// # Errors
-    /// A sentence that names the figure.
+    /// # Errors A message that names the figure.
     pub(crate) fn facts(&self, name: &str, settings: &Settings) -> Result<Arc<Facts>, String> {
         let key = (name.to_owned(), settings.to_vec());
         let lock = || self.facts.lock().unwrap_or_else(PoisonError::into_inner);
@@ -69,10 +68,10 @@ impl<'a> Book<'a> {
         Ok(facts)
     }
 
-    /// Posters of a figure in a state, narrow ones first; none in a check. Paper has one width.
+    /// Returns the posters of a figure in a state, narrow ones first; none in a check. Paper has
+    /// one width.
     ///
-    /// # Errors
-    /// A sentence.
+    /// # Errors A message.
     pub(crate) fn posters(
         &self,
         name: &str,

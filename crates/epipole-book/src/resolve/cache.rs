@@ -5,23 +5,22 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Hash of the sources that draw figures: entries of other versions are drawn again.
+/// Hash of the sources that draw figures; entries with another hash are drawn again.
 const DRAWN_BY: &str = env!("EPIPOLE_BOOK_DRAWN_BY");
 
-/// A folder with results, each under a hash of all that it depends on.
+/// A folder of results, each named by a hash of all its inputs.
 #[derive(Debug, Clone)]
 pub(crate) struct Cache(PathBuf);
 
 impl Cache {
-    /// The cache in a folder that exists.
+    /// Opens the cache in an existing folder.
     pub(crate) fn new(folder: &Path) -> Cache {
         Cache(folder.to_path_buf())
     }
 
     /// Returns the cached data of a figure in a state, or calls `make` and caches the result.
     ///
-    /// # Errors
-    /// Those of `make`.
+    /// # Errors Those of `make`.
     pub(crate) fn get_or<T>(
         &self,
         (name, settings, what): (&str, &[(String, String)], &str),
@@ -35,14 +34,14 @@ impl Cache {
             return Ok(kept);
         }
         let (made, bytes) = make()?;
-        // A cache that cannot be written costs time, nothing else.
+        // A failure to write the cache only costs time.
         let part = file.with_extension(part_name());
         let _ = fs::write(&part, bytes).and_then(|()| fs::rename(&part, &file));
         Ok(made)
     }
 }
 
-/// A unique extension for each file being written, as two threads may write the same.
+/// Returns a unique extension for each file being written, as two threads may write the same.
 fn part_name() -> String {
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -70,7 +69,7 @@ mod tests {
                 .get_or(("dot", &settings, "360"), text, nothing)
                 .is_err()
         );
-        // An unreadable entry is made again.
+        // An unreadable entry is computed again.
         assert!(cache.get_or(key, |_| None, nothing).is_err());
     }
 }

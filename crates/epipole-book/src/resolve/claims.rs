@@ -1,4 +1,4 @@
-//! Checks the claims of a caption or a sentence against the figure.
+//! Checking of claims in captions and sentences against the figure.
 //!
 //! A claim is one or more comparisons, separated by semicolons:
 //! `samples > 100; verdict has corner`. The left side is the name of a readout, of a control, or
@@ -11,8 +11,8 @@ const OPERATORS: [&str; 8] = [">=", "<=", "!=", ">", "<", "=", "has", "lacks"];
 
 /// Checks a claim against the facts of a figure.
 ///
-/// # Errors
-/// A sentence: the false comparison with the actual value, or the part that cannot be read.
+/// # Errors A message with the false comparison and the actual value, or with the part that is
+/// invalid.
 pub fn check(claim: &str, facts: &Facts) -> Result<(), String> {
     claim
         .split(';')
@@ -81,13 +81,13 @@ fn verdict(holds: bool, test: &str, seen: &Shown) -> Result<(), String> {
     ))
 }
 
-/// A number, or the value of a name.
+/// Returns a number, or the value of a name.
 fn value_of(right: &str, facts: &Facts) -> Option<f64> {
     let number = right.parse().ok();
     number.or_else(|| look(right, facts).ok()?.number)
 }
 
-/// The value of `name` or `name#2`.
+/// Returns the value of `name` or `name#2`.
 fn look(name: &str, facts: &Facts) -> Result<Shown, String> {
     let (id, place) = match name.split_once('#') {
         Some((id, place)) => (
@@ -112,7 +112,7 @@ fn look(name: &str, facts: &Facts) -> Result<Shown, String> {
     Ok(Shown { number, ..shown })
 }
 
-/// The numbers of a text as figures print them, powers of ten included.
+/// Returns the numbers of a text as printed by figures, including powers of ten.
 fn numbers_in(text: &str) -> Vec<f64> {
     const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
     let letters: Vec<char> = text.chars().collect();

@@ -1,45 +1,44 @@
-//! Facts of a figure in one of its states: the numbers, words and settings that a page prints,
+//! Facts of a figure in one of its states: the numbers, texts and settings that a page prints,
 //! quotes and checks, from the same snapshot as in a browser.
 
 use super::figures::Aspect;
 use crate::problems::name_list;
 use serde_json::Value;
 
-/// A figure in one state, by its snapshot.
+/// Facts of a figure in one state, from its snapshot.
 #[derive(Debug, Clone)]
 pub struct Facts(Value);
 
-/// A readout, a control or a goal as a reader sees it.
+/// Value of a readout, a control or a goal as shown to readers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
-    /// As shown, with its unit.
+    /// Text, with its unit.
     pub text: String,
-    /// The number itself, where it is one.
+    /// Number, if it is one.
     pub number: Option<f64>,
 }
 
 impl Facts {
-    /// The facts of a snapshot.
+    /// Parses a snapshot.
     ///
-    /// # Errors
-    /// A sentence, if the text is no JSON.
+    /// # Errors A message, if the text is not JSON.
     pub fn parse(snapshot: &str) -> Result<Facts, String> {
         serde_json::from_str(snapshot)
             .map(Facts)
             .map_err(|error| format!("the snapshot cannot be read: {error}"))
     }
 
-    /// The snapshot itself.
+    /// Returns the snapshot itself.
     pub fn snapshot(&self) -> &Value {
         &self.0
     }
 
-    /// Description of the picture, in one or two sentences.
+    /// Returns the description of the picture, in one or two sentences.
     pub fn description(&self) -> &str {
         self.0["description"].as_str().unwrap_or_default()
     }
 
-    /// The shape of its picture.
+    /// Returns the shape of its picture.
     pub fn aspect(&self) -> Aspect {
         match self.0["aspect"].as_str() {
             Some("broad") => Aspect::Broad,
@@ -47,7 +46,7 @@ impl Facts {
         }
     }
 
-    /// The names in a list of the snapshot: `controls`, `readouts`, `challenges`.
+    /// Returns the names in a list of the snapshot: `controls`, `readouts`, `challenges`.
     pub fn ids(&self, list: &str) -> Vec<&str> {
         let entries = self.0[list].as_array();
         let ids = entries.into_iter().flatten();
@@ -56,8 +55,7 @@ impl Facts {
 
     /// Checks names, separated by white space, against a list of the snapshot.
     ///
-    /// # Errors
-    /// A sentence with the names that exist.
+    /// # Errors A message with the names that exist.
     pub fn check_names(&self, list: &str, names: &str) -> Result<(), String> {
         let known = self.ids(list);
         match names.split_whitespace().find(|name| !known.contains(name)) {
@@ -71,11 +69,10 @@ impl Facts {
         }
     }
 
-    /// The value of a name: a readout, else the value of a control, else, as `goal.name`, whether a
-    /// goal is reached.
+    /// Returns the value of a name: a readout, else the value of a control, else, as `goal.name`,
+    /// whether a goal is reached.
     ///
-    /// # Errors
-    /// A sentence with the names that exist.
+    /// # Errors A message with the names that exist.
     pub fn shown(&self, id: &str) -> Result<Shown, String> {
         if let Some(readout) = self.entry("readouts", id) {
             let text = readout["text"].as_str().unwrap_or_default().to_owned();
@@ -115,7 +112,7 @@ impl Facts {
 pub(crate) mod tests {
     use super::*;
 
-    /// A figure with a number, words, a slider and a goal.
+    /// A figure with a number, a text, a slider and a goal.
     pub(crate) fn some_facts() -> Facts {
         Facts::parse(
             r#"{"aspect":"broad","description":"D.",

@@ -1,7 +1,6 @@
-//! The builder's interface to the figures: their names, the check of a chapter's parameters, the
-//! poster.
+//! The builder's interface to the figures: names, parameters and posters.
 //!
-//! The rest of the builder knows only the two traits here, so its tests can bring their own
+//! The rest of the builder uses only the two traits here, so its tests can provide their own
 //! figures.
 
 pub use epipole_widgets::contract::Aspect;
@@ -13,20 +12,20 @@ use epipole_widgets::{Answers, Snapshot};
 /// Cache of the figures' computations while the builder runs.
 static ANSWERS: Answers = Answers::new();
 
-/// The room that a page has for a picture: figures lay themselves out for its width.
+/// Width that a page has for a picture, which determines a figure's layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Room {
     /// A phone.
     Phone,
     /// A column.
     Column,
-    /// A broad page.
+    /// A wide page.
     Broad,
 }
 
 impl Room {
-    /// The rooms that a page of the book can have for pictures of this shape. A tall one has its
-    /// controls beside it on a broad page, so it never gets more than a column.
+    /// Returns the widths that pages can have for pictures of this shape. A tall picture has its
+    /// controls beside it on a wide page, so it never gets more than a column.
     pub fn all_for(aspect: Aspect) -> &'static [Room] {
         match aspect {
             Aspect::Broad => &[Room::Phone, Room::Column, Room::Broad],
@@ -34,7 +33,7 @@ impl Room {
         }
     }
 
-    /// CSS pixels from the left to the right edge of a poster.
+    /// Width of a poster, CSS pixels.
     pub fn width(self) -> u32 {
         let [phone, column, broad] = WIDTHS;
         let width = match self {
@@ -46,49 +45,47 @@ impl Room {
     }
 }
 
-/// The page of a figure for frames, from the root of the site.
+/// Returns the path of a figure's page for frames, from the root of the site.
 pub fn frame_path(name: &str) -> String {
     format!("embed/{name}.html")
 }
 
 /// A picture of a figure, drawn without a browser.
 pub struct Poster {
-    /// Pixels in a row.
+    /// Width, device pixels.
     pub width: u32,
-    /// Rows.
+    /// Height, device pixels.
     pub height: u32,
-    /// Four bytes a pixel, not premultiplied.
+    /// Four bytes per pixel, not premultiplied.
     pub rgba: Vec<u8>,
 }
 
-/// The figures that chapters may show.
+/// Figures available to chapters.
 pub trait Gallery: Send + Sync {
-    /// Their names, for messages.
+    /// Returns their names, for messages.
     fn names(&self) -> Vec<String>;
 
-    /// Title and help of a figure.
+    /// Returns title and help of a figure.
     fn about(&self, name: &str) -> (String, String);
 
-    /// A figure in the state that the settings describe.
+    /// Creates a figure in the state given by the settings.
     ///
-    /// # Errors
-    /// A sentence: an unknown parameter with those that exist, or a value outside its range.
+    /// # Errors A message for an unknown parameter, with those that exist, or for a value outside
+    /// its range.
     fn open(&self, name: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String>;
 }
 
 /// One figure in one state.
 pub trait Figure: Send + Sync {
-    /// JSON of everything beside the picture, after all computations, as in a browser.
+    /// Returns JSON of everything but the picture, after all computations, as in a browser.
     ///
-    /// # Errors
-    /// A sentence.
+    /// # Errors A message.
     fn snapshot(&self) -> Result<String, String>;
 
-    /// The drawing, [`Room::width`] CSS pixels wide with `scale` device pixels to each: light and
-    /// dark, since the photographs in it are the same.
+    /// Draws light and dark posters, [`Room::width`] CSS pixels wide with `scale` device pixels per
+    /// CSS pixel. Both are drawn together, as they contain the same photographs.
     ///
-    /// # Errors
-    /// A sentence.
+    /// # Errors A message.
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String>;
 }
 
@@ -131,8 +128,8 @@ impl Gallery for Widgets {
     }
 }
 
-/// A figure's name and state; the figure itself is made on each use, as it cannot be sent between
-/// threads.
+/// A figure's name and state; the figure itself is created on each use, as it cannot be sent
+/// between threads.
 struct Widget {
     name: String,
     settings: Vec<(String, String)>,

@@ -1,9 +1,9 @@
-//! Every number that a chapter prints and the core can compute.
+//! Numbers that chapters print and the core computes.
 //!
-//! A chapter writes `{{#value ransac.trials s=2 w=0.5 p=0.99}}`; the name stands in the file of its
-//! chapter, with what it needs and the core's function. A new number is an entry there and a worked
+//! A chapter writes `{{#value ransac.trials s=2 w=0.5 p=0.99}}`. The file for each chapter has the
+//! name with its parameters and the core's function. A new number is an entry there and a worked
 //! example in the tests. `digits=` sets the decimals. An unknown name or parameter fails the build,
-//! so prose cannot drift away from the code.
+//! so prose cannot diverge from the code.
 
 mod calibration;
 mod corners;
@@ -22,7 +22,7 @@ mod triangulation;
 use crate::problems::name_list;
 pub use entry::{Arguments, Entry, Number};
 
-/// All numbers that chapters may print, in the order of the chapters.
+/// Returns all numbers that chapters may print, in the order of the chapters.
 pub fn registry() -> impl Iterator<Item = &'static Entry> {
     let rooms = [
         rays::ENTRIES,
@@ -41,10 +41,9 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
     rooms.into_iter().flatten()
 }
 
-/// The text of a number: `name` and `settings` as an author writes them.
+/// Formats a number, from `name` and `settings` as written by an author.
 ///
-/// # Errors
-/// A sentence that says which name, parameter or value is wrong, and what is known.
+/// # Errors A message with the invalid name, parameter or value, and the valid ones.
 pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String> {
     let mut digits = None;
     let mut rest = Vec::new();
@@ -64,7 +63,7 @@ pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String
     })
 }
 
-/// The number itself, for an answer that a reader types.
+/// Computes a number, for an answer that a reader types.
 ///
 /// # Errors
 /// As [`print`].
@@ -105,7 +104,7 @@ pub fn compute(name: &str, settings: &[(String, String)]) -> Result<Number, Stri
     }
 }
 
-/// `value` with `places` decimals; never `-0`.
+/// Formats `value` with `places` decimals, never as `-0`.
 fn fixed(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     match text.strip_prefix('-') {

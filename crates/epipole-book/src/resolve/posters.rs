@@ -1,4 +1,4 @@
-//! Posters: pictures of the figures, drawn while the book is built, kept between builds.
+//! Posters: pictures of the figures, drawn at build time and cached.
 
 use super::cache::Cache;
 use super::figures::{Figure, Poster, Room};
@@ -6,17 +6,17 @@ use crate::parallel;
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 
-/// Device pixels of a poster to a CSS pixel. On paper, 720 CSS pixels on 160 mm are 229 dots an
-/// inch.
+/// Device pixels per CSS pixel of a poster. On paper, 720 CSS pixels on 160 mm give 229 dpi.
 const SCALE: u32 = 2;
 
-/// Quality of lossy posters, of 100. At two device pixels to a CSS pixel text stays crisp.
+/// Quality of lossy posters, 0 to 100. At two device pixels per CSS pixel, text stays crisp.
 const QUALITY: f32 = 76.0;
-/// Quality of JPEGs on paper, of 100: the book is less than 25 MB.
+/// Quality of JPEGs on paper, 0 to 100, for a book below 25 MB.
 const PAPER_QUALITY: u8 = 72;
 
-/// Colors above which no lossless poster is tried: it takes long and was never the smaller one.
-/// Of 514 posters, the ten that are smaller without loss have at most 2731.
+/// Maximum number of colors for which a lossless poster is tried, as it takes long and is never
+/// smaller for more. Of 514 posters, the ten that are smaller without loss have at most 2731
+/// colors.
 const MOST_COLORS: usize = 4096;
 
 /// Medium that posters are drawn for.
@@ -24,7 +24,7 @@ const MOST_COLORS: usize = 4096;
 pub(crate) enum Medium {
     /// WebP for the widths of a page, light and dark.
     Screen,
-    /// JPEG for one width, light: PDF files hold it as it is.
+    /// JPEG for one width, light, which PDF files contain unchanged.
     Paper,
 }
 
@@ -35,24 +35,24 @@ pub(crate) struct Posters(pub(crate) Vec<Shades>);
 /// The posters for one width of a page.
 #[derive(Debug)]
 pub(crate) struct Shades {
-    /// CSS pixels.
+    /// Width, CSS pixels.
     pub(crate) width: u32,
-    /// CSS pixels.
+    /// Height, CSS pixels.
     pub(crate) height: f64,
     pub(crate) light: Encoded,
-    /// None on paper.
+    /// Dark poster; `None` on paper.
     pub(crate) dark: Option<Encoded>,
 }
 
 impl Posters {
-    /// Width and height of each, CSS pixels.
+    /// Returns width and height of each, CSS pixels.
     pub(crate) fn sizes(&self) -> Vec<(u32, f64)> {
         let all = self.0.iter();
         all.map(|shades| (shades.width, shades.height)).collect()
     }
 }
 
-/// Draws the posters for these rooms, or takes them from the cache.
+/// Draws the posters for these widths, or takes them from the cache.
 pub(super) fn draw(
     figure: &dyn Figure,
     name: &str,
@@ -90,7 +90,7 @@ pub(super) fn draw(
     drawn.map(Posters)
 }
 
-/// A compressed poster and its size in device pixels: their ratio is exactly that of the living
+/// A compressed poster and its size in device pixels, whose ratio is exactly that of the live
 /// picture.
 #[derive(Debug)]
 pub(crate) struct Encoded {
@@ -99,7 +99,7 @@ pub(crate) struct Encoded {
 }
 
 impl Encoded {
-    /// Extension of its file.
+    /// Returns the extension of its file.
     pub(crate) fn ending(&self) -> &'static str {
         match &self.bytes[..] {
             [0xff, 0xd8, ..] => "jpg",
@@ -108,8 +108,8 @@ impl Encoded {
     }
 }
 
-/// The smaller of a lossless and a good lossy picture: drawings come out lossless, photographs
-/// lossy.
+/// Encodes a poster losslessly or lossily, whichever is smaller: drawings are usually lossless,
+/// photographs lossy.
 fn encode(poster: &Poster) -> Result<Encoded, String> {
     let encoder = webp::Encoder::from_rgba(&poster.rgba, poster.width, poster.height);
     let encode = |lossless: bool| {
@@ -118,7 +118,7 @@ fn encode(poster: &Poster) -> Result<Encoded, String> {
             webp::WebPConfig::new().map_err(|()| failed("no configuration".to_owned()))?;
         config.lossless = i32::from(lossless);
         config.quality = if lossless { 75.0 } else { QUALITY };
-        // Colors of thin lines and letters at full resolution.
+        // Keeps the color of thin lines and letters at full resolution.
         config.use_sharp_yuv = 1;
         encoder
             .encode_advanced(&config)
@@ -135,7 +135,7 @@ fn encode(poster: &Poster) -> Result<Encoded, String> {
     })
 }
 
-/// JPEG on white.
+/// Encodes a JPEG on white.
 fn encode_for_paper(poster: &Poster) -> Result<Encoded, String> {
     let failed = |error: ImageError| format!("the poster could not be encoded: {error}");
     let on_white = |[r, g, b, a]: &[u8; 4]| {

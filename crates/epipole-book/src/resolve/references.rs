@@ -1,4 +1,4 @@
-//! The works that the chapters cite: `content/references.toml`.
+//! Works cited by the chapters: `content/references.toml`.
 
 use crate::parse::source::Source;
 use crate::problems::Problems;
@@ -49,24 +49,24 @@ impl References {
         }
     }
 
-    /// The keys, for messages.
+    /// Returns the keys, for messages.
     pub fn keys(&self) -> Vec<&str> {
         self.0.keys().map(String::as_str).collect()
     }
 
-    /// `Hartley & Zisserman 2004`, or nothing if the key is unknown.
+    /// Returns a label such as `Hartley & Zisserman 2004`; `None` for an unknown key.
     pub fn label(&self, key: &str) -> Option<String> {
         self.0.get(key).map(Reference::label)
     }
 
-    /// All works with their keys.
+    /// Returns all works with their keys.
     pub fn works(&self) -> impl Iterator<Item = (&str, &Reference)> {
         self.0.iter().map(|(key, work)| (key.as_str(), work))
     }
 }
 
 impl Reference {
-    /// `Hartley & Zisserman 2004`.
+    /// Returns a label such as `Hartley & Zisserman 2004`.
     fn label(&self) -> String {
         let family = |author: &String| author.split(',').next().unwrap_or("").trim().to_owned();
         let families: Vec<String> = self.authors.iter().map(family).collect();

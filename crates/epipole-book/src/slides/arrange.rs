@@ -1,5 +1,5 @@
-//! A chapter as slides: each section is a stack, with the first sentence, formulas, tables, lists
-//! and figures on slides, and everything that one says about them in the notes.
+//! Conversion of a chapter to slides: each section is a stack, with the first sentence, formulas,
+//! tables, lists and figures on slides, and the remaining text in the notes.
 
 use super::questions;
 use super::slide::{Kind, Slide, Stack};
@@ -7,17 +7,17 @@ use crate::edition::sentence;
 use crate::edition::tree::{Tree, place};
 use ego_tree::NodeId;
 
-/// Sections that are work for the reader, by their ids.
+/// Ids of sections to omit, as they are work for the reader.
 const LEFT_OUT: [&str; 3] = ["in-code", "exercises", "sources"];
-/// Elements that a slide cannot use.
+/// Elements that are useless on a slide.
 const PARTS: &str =
     "template, .anchor, .reading-time, .notebook, .deck-link, .listing, script:not([src])";
 /// Attributes of links and pictures.
 const ADDRESSES: [&str; 3] = ["href", "src", "srcset"];
-/// Largest number of formulas of one slide.
+/// Maximum number of formulas per slide.
 const MAX_FORMULAS: usize = 2;
 
-/// The stacks of a chapter; the first one is what stands before all sections.
+/// Returns the stacks of a chapter; the first one is the content before all sections.
 ///
 /// * `page`: path of the chapter, from the root of the site; decks are one folder below it
 pub(super) fn stacks(html: &str, page: &str) -> Vec<Stack> {
@@ -73,7 +73,7 @@ impl Stack {
         self.push(Kind::Words, heading, String::new());
     }
 
-    /// Adds a slide, in place of one that has nothing but its heading.
+    /// Adds a slide, replacing one that contains only its heading.
     fn push(&mut self, kind: Kind, heading: &str, body: String) {
         let is_empty = |last: &mut Slide| last.body.is_empty() && last.notes.is_empty();
         self.slides.pop_if(is_empty);
@@ -86,7 +86,7 @@ impl Stack {
         });
     }
 
-    /// Adds a block: to a slide of its own, to the present one, or to its notes.
+    /// Adds a block to its own slide, to the current one, or to its notes.
     fn add(&mut self, tree: &Tree, node: NodeId) {
         let Some(last) = self.slides.last_mut() else {
             return;
@@ -139,7 +139,7 @@ impl Stack {
     }
 }
 
-/// Main content of a block; `None` for blanks between blocks.
+/// Returns the main content of a block; `None` for white space between blocks.
 fn kind(tree: &Tree, node: NodeId) -> Option<Kind> {
     let has = |selector| !tree.inside(node, selector).is_empty();
     Some(match tree.name(node) {
@@ -152,7 +152,7 @@ fn kind(tree: &Tree, node: NodeId) -> Option<Kind> {
     })
 }
 
-/// A list of the first sentences of its items.
+/// Returns a list of the first sentences of its items.
 fn list(tree: &Tree, node: NodeId) -> String {
     let items = tree.inside(node, ":scope > li").into_iter();
     let items = items.map(|item| {
@@ -164,7 +164,7 @@ fn list(tree: &Tree, node: NodeId) -> String {
     format!("<{name}>{}</{name}>", items.collect::<String>())
 }
 
-/// Buttons for the words of a paragraph that operate a figure.
+/// Returns buttons for the phrases of a paragraph that operate a figure.
 fn actions(tree: &Tree, node: NodeId) -> String {
     let words = tree.inside(node, ".do").into_iter();
     words.map(|words| tree.outer(words)).collect()

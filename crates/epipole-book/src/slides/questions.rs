@@ -1,10 +1,10 @@
-//! Questions of a quiz as slides: choices are a list, answers are notes.
+//! Quiz questions as slides: choices are a list, answers are notes.
 
 use super::slide::{Kind, Slide};
 use crate::edition::tree::Tree;
 use ego_tree::NodeId;
 
-/// The slide of a question.
+/// Returns the slide of a question.
 pub(super) fn slide(tree: &mut Tree, question: NodeId, heading: &str) -> Slide {
     let html = |tree: &Tree, selector: &str| -> Vec<String> {
         let found = tree.inside(question, selector).into_iter();

@@ -1,8 +1,8 @@
-//! A slide and a column of slides, for the template.
+//! A slide and a stack of slides, for the template.
 
 use serde::Serialize;
 
-/// Main content of a slide, which decides its layout.
+/// Main content of a slide, which determines its layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {

@@ -1,15 +1,15 @@
-//! The address of the published book, `[output.epipole] address`, and what search engines read.
+//! Address of the published book, `[output.epipole] address`, and files for search engines.
 
 use crate::html::escape;
 use mdbook_driver::config::Config;
 
-/// The address with a trailing slash, if it is configured.
+/// Returns the address with a trailing slash, if it is configured.
 pub(crate) fn address(config: &Config) -> Option<String> {
     let written = config.get::<String>("output.epipole.address").ok()??;
     Some(format!("{}/", written.trim_end_matches('/')))
 }
 
-/// Canonical address of a page below `root`. An index is its folder.
+/// Returns the canonical address of a page below `root`; for an index, that of its folder.
 pub(crate) fn of_page(root: &str, path: &str) -> String {
     let path = match path.strip_suffix("index.html") {
         Some(folder) if folder.is_empty() || folder.ends_with('/') => folder,
@@ -18,7 +18,7 @@ pub(crate) fn of_page(root: &str, path: &str) -> String {
     format!("{root}{path}")
 }
 
-/// `sitemap.xml`, with all pages.
+/// Returns `sitemap.xml`, with all pages.
 pub(crate) fn sitemap<'a>(root: &str, paths: impl Iterator<Item = &'a str>) -> String {
     let urls: String = paths
         .map(|path| format!("<url><loc>{}</loc></url>\n", escape(&of_page(root, path))))
@@ -29,7 +29,7 @@ pub(crate) fn sitemap<'a>(root: &str, paths: impl Iterator<Item = &'a str>) -> S
     )
 }
 
-/// `robots.txt`. It names the sitemap, whose address must be absolute.
+/// Returns `robots.txt`. It names the sitemap, whose address must be absolute.
 pub(crate) fn robots(root: Option<&str>) -> String {
     let sitemap = root.map(|root| format!("Sitemap: {root}sitemap.xml\n"));
     format!("User-agent: *\nAllow: /\n{}", sitemap.unwrap_or_default())

@@ -1,5 +1,5 @@
-//! Files that the browser downloads besides the pages: styles, fonts, scripts and WebAssembly.
-//! Every name carries a hash of the content; only names in `embed/` are stable, for other sites.
+//! Files of the site besides the pages: styles, fonts, scripts and WebAssembly. Every name contains
+//! a hash of the content; only names in `embed/`, for other sites, are stable.
 
 mod bundle;
 mod embed;
@@ -24,10 +24,9 @@ use crate::tools::{Tools, read};
 use anyhow::Result;
 use std::path::Path;
 
-/// The figures for the browser, if the project has figures: the slowest step.
+/// Builds the figures for the browser, if the project has figures. This is the slowest step.
 ///
-/// # Errors
-/// A tool that is missing or fails, named with the remedy.
+/// # Errors A tool that is missing or fails, with the remedy.
 pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
     let manifest = project.join("crates/epipole-web/Cargo.toml");
     if !manifest.is_file() {
@@ -36,18 +35,16 @@ pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
     wasm::make(&Tools::find(project)?).map(Some)
 }
 
-/// The font of formulas, cut down to their letters.
+/// Returns the math font, subset to the letters of formulas.
 ///
-/// # Errors
-/// A tool that is missing or fails, named with the remedy.
+/// # Errors A tool that is missing or fails, with the remedy.
 pub(crate) fn math_font(project: &Path, letters: &Letters) -> Result<Vec<u8>> {
     fonts::math(&Tools::find(project)?, letters)
 }
 
-/// Makes everything else, and puts the figures to it.
+/// Makes all other assets, and adds the figures.
 ///
-/// # Errors
-/// A tool that is missing or fails, named with the remedy.
+/// # Errors A tool that is missing or fails, with the remedy.
 pub(crate) fn make(
     project: &Path,
     live: bool,

@@ -1,4 +1,4 @@
-//! Cards: pictures that other sites show beside a link to a page, with its title and first figure.
+//! Cards: preview pictures of pages for other sites, with title and first figure.
 
 use super::assets::add_hashed;
 use crate::parallel;
@@ -12,31 +12,30 @@ use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// Pixels, as large sites want them.
+/// Width, pixels, as recommended by large sites.
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 630;
 const QUALITY: u8 = 85;
 
 const MARGIN: f64 = 56.0;
 const TITLE_SIZE: f64 = 50.0;
-/// Above the title, smaller.
+/// Font size above the title, pixels.
 const BOOK_SIZE: f64 = 28.0;
-/// Space between title and picture.
+/// Gap between title and picture, pixels.
 const GAP: f64 = 20.0;
 
-/// A card and its words.
+/// A card and its text.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Card {
-    /// From the root of the site, or its address.
+    /// Path from the root of the site, or its address.
     pub(crate) path: String,
     pub(crate) alt: String,
 }
 
-/// Draws a card for each page, and adds them to the files of the site, which has the posters.
-/// Returns them by the paths of their pages.
+/// Draws a card for each page, using the posters in the files of the site, and adds them to these
+/// files. Returns them by the paths of their pages.
 ///
-/// # Errors
-/// A poster that cannot be read.
+/// # Errors An unreadable poster.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     book_title: &str,
@@ -61,7 +60,7 @@ pub(crate) fn add(
     Ok(cards)
 }
 
-/// The first page has the title of the book.
+/// Returns the title of the card: that of the book on its first page.
 fn title<'a>(book_title: &'a str, page: &'a Page) -> &'a str {
     match page.path.as_str() {
         "index.html" => book_title,
@@ -76,7 +75,7 @@ fn alt(title: &str, figure: Option<&FigureEntry>) -> String {
     }
 }
 
-/// A JPEG of the title, and of the poster below it if there is one.
+/// Draws a JPEG of the title, and of the poster below it if there is one.
 fn draw(book_title: &str, title: &str, poster: Option<&[u8]>) -> Result<Vec<u8>> {
     let (width, height) = (f64::from(WIDTH), f64::from(HEIGHT));
     let mut canvas = Canvas::new(width, height, 1.0, Theme::Light, Picture::default())?;
@@ -109,7 +108,7 @@ fn draw(book_title: &str, title: &str, poster: Option<&[u8]>) -> Result<Vec<u8>>
     jpeg(&canvas.finish())
 }
 
-/// The largest place of a picture in its room, at its left.
+/// Fits a picture into a rectangle, as large as possible and aligned to its left edge.
 fn fitted((width, height): (u32, u32), room: Rect) -> Rect {
     let (width, height) = (f64::from(width), f64::from(height));
     let scale = (room.width / width).min(room.height / height);

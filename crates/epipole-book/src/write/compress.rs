@@ -1,5 +1,4 @@
-//! Compressed copies (`.br`, `.gz`) beside everything that compresses, so that a static server
-//! need not compute.
+//! Compressed copies (`.br`, `.gz`) of all compressible files, for static servers.
 
 use anyhow::Result;
 use rayon::prelude::*;
@@ -21,8 +20,7 @@ const TEXTUAL: &[&str] = &[
 
 /// Adds the compressed copies.
 ///
-/// # Errors
-/// Only if the compressors fail, which they do not on memory.
+/// # Errors If a compressor fails, which does not happen in memory.
 pub fn add(files: &mut BTreeMap<String, Vec<u8>>) -> Result<()> {
     let compressed: Vec<(String, Vec<u8>)> = files
         .par_iter()
@@ -42,7 +40,7 @@ pub fn add(files: &mut BTreeMap<String, Vec<u8>>) -> Result<()> {
     Ok(())
 }
 
-/// Size of `bytes` as a server would send them.
+/// Compresses bytes with Brotli, at the site's settings.
 ///
 /// # Errors
 /// As [`add`].
@@ -54,7 +52,7 @@ pub fn brotli(bytes: &[u8]) -> Result<Vec<u8>> {
     Ok(compressed)
 }
 
-/// The same as gzip.
+/// Compresses bytes with gzip.
 ///
 /// # Errors
 /// As [`add`].

@@ -1,14 +1,15 @@
-//! The site on the disk.
+//! Writing of the site to disk.
 
 use crate::render::links::LAB_FOLDER;
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// The mark of a folder with the page that stands where the Lab will be.
+/// Marker file of a folder that contains the placeholder page of the Lab.
 pub(crate) const STAND_IN: &str = ".placeholder";
 
-/// Writes the site beside its place and then moves it there, so that a reader never sees half.
+/// Writes the site to a temporary folder, which then replaces the old one, so that readers never
+/// see an incomplete site.
 pub(crate) fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()> {
     let next = out.with_extension("next");
     remove(&next)?;
@@ -20,7 +21,7 @@ pub(crate) fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()>
         }
         std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
     }
-    // The Lab takes minutes to build, and a chapter's words seconds.
+    // The old Lab is kept: it takes minutes to build, a chapter only seconds.
     let (lab, kept) = (out.join(LAB_FOLDER), next.join(LAB_FOLDER));
     if lab.is_dir() && !lab.join(STAND_IN).exists() {
         remove(&kept)?;

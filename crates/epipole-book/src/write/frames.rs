@@ -1,5 +1,5 @@
-//! `embed/<figure>.html`: the page of one figure, for frames on other pages. It has poster and
-//! words for readers without script; its address sets the figure. If the address of the book is
+//! `embed/<figure>.html`: the page of one figure, for frames on other pages. It contains poster and
+//! text for readers without script; its address sets the figure. If the address of the book is
 //! configured, each page links to its oEmbed data.
 
 use super::address::address;
@@ -19,8 +19,8 @@ use serde_json::json;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Height of a frame beyond the poster, for title, buttons, numbers and sliders, CSS pixels. A
-/// listening page receives the true height.
+/// Height of a frame beyond the poster, for title, buttons, numbers and sliders, CSS pixels. A page
+/// that listens receives the true height.
 const BESIDE_POSTER: f64 = 300.0;
 
 /// One figure, ready for its page.
@@ -35,11 +35,10 @@ pub(crate) struct Frame {
     files: BTreeMap<String, Vec<u8>>,
 }
 
-/// Draws the posters of all figures in their initial state, into pages of their own, with files
-/// that belong to the site.
+/// Draws the posters of all figures in their initial state, on separate pages, whose files belong
+/// to the site.
 ///
-/// # Errors
-/// The sentence of a figure that cannot be drawn.
+/// # Errors The message of a figure that cannot be drawn.
 pub(crate) fn draw(book: &Book) -> Result<Vec<Frame>> {
     let frame = |name: &String| {
         let facts = book.facts(name, &[])?;
@@ -86,8 +85,7 @@ struct Data<'a> {
 
 /// Adds the pages, made with `web/theme/frame.hbs`.
 ///
-/// # Errors
-/// A template that cannot be read.
+/// # Errors An unreadable template.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     project: &Path,
@@ -141,7 +139,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// The frame as another page writes it.
+/// Returns the HTML that embeds the frame in another page.
 fn snippet(address: &str, title: &str, height: f64) -> String {
     format!(
         "<iframe src=\"{}\" title=\"{}\" width=\"100%\" height=\"{}\" loading=\"lazy\" \

@@ -4,10 +4,10 @@ use super::assets::Assets;
 use mdbook_driver::config::Config;
 use serde_json::{Value, json};
 
-/// Place of the manifest, as `web/theme/index.hbs` links it.
+/// Path of the manifest, as in `web/theme/index.hbs`.
 pub(crate) const MANIFEST: &str = "manifest.webmanifest";
 
-/// The manifest. Its addresses are relative to its own.
+/// Returns the manifest. Its addresses are relative to its own.
 pub(crate) fn manifest(config: &Config, assets: &Assets) -> Value {
     let title = config.book.title.as_deref().unwrap_or("Book");
     let icons: Vec<Value> = assets

@@ -1,5 +1,5 @@
-//! The manual of the Python package and the reference of the npm package, which other programs
-//! build, as parts of the site.
+//! The manual of the Python package and the reference of the npm package, built by other programs,
+//! as parts of the site.
 
 use crate::render::page::Section;
 use anyhow::{Context, Result, bail};
@@ -12,8 +12,8 @@ pub const MANUAL_FOLDER: &str = "python";
 /// Folder of the reference in the site.
 pub const REFERENCE_FOLDER: &str = "js";
 
-/// Sections for the search, among the files of the manual: as those of the book, with addresses
-/// relative to the manual.
+/// Sections for the search index, in the manual: in the book's format, with addresses relative to
+/// the manual.
 const SECTIONS: &str = "search/sections.json";
 
 /// Files by their paths in the site.
@@ -23,15 +23,14 @@ type Files = BTreeMap<String, Vec<u8>>;
 #[derive(Debug, Default)]
 pub(crate) struct Manual {
     pub(crate) files: Files,
-    /// With addresses relative to the root of the site.
+    /// Sections for the search index, with addresses relative to the root of the site.
     pub(crate) sections: Vec<Section>,
 }
 
 impl Manual {
     /// Reads the manual.
     ///
-    /// # Errors
-    /// A folder without the list of sections, or a file that cannot be read.
+    /// # Errors A folder without the list of sections, or an unreadable file.
     pub(crate) fn read(folder: &Path) -> Result<Manual> {
         let mut manual = Manual::default();
         let list = folder.join(SECTIONS);
@@ -54,8 +53,7 @@ impl Manual {
 
 /// Reads the reference, which has a search of its own.
 ///
-/// # Errors
-/// A folder without a first page, or a file that cannot be read.
+/// # Errors A folder without an index page, or an unreadable file.
 pub(crate) fn read_reference(folder: &Path) -> Result<Files> {
     let first = folder.join("index.html");
     if !first.is_file() {
@@ -69,7 +67,7 @@ pub(crate) fn read_reference(folder: &Path) -> Result<Files> {
     Ok(files)
 }
 
-/// Adds the files below a folder, which has this path in the site.
+/// Adds the files of a folder, under this path of the site.
 fn add(files: &mut Files, folder: &Path, path: &str) -> Result<()> {
     let unreadable = || format!("cannot read {}", folder.display());
     for entry in std::fs::read_dir(folder).with_context(unreadable)? {

@@ -1,11 +1,11 @@
-//! Files of the site that the pages ask for.
+//! Files of the site that pages require.
 
 use crate::parse::content::Content;
 use crate::render::page::Page;
 use std::collections::BTreeMap;
 
-/// Files that were made for the pages, files of the content folder that they name, and the data of
-/// their notebooks.
+/// Returns files generated for the pages, files of the content folder that they refer to, and the
+/// data of their notebooks.
 pub(crate) fn files(pages: &mut [Page], content: &Content) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     let mut copy = |from: &str, to: &str| {

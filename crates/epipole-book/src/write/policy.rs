@@ -15,14 +15,14 @@ macro_rules! policy {
     };
 }
 
-/// Content-Security-Policy of a page, and a part of it.
+/// Content-Security-Policy of a page, and part of the others.
 pub const CONTENT_SECURITY_POLICY: &str = policy!("", "", "");
 
-/// The same for pages with code that readers change and run: it runs in a worker whose script is a
-/// blob. Such a script has this policy, too, so it evaluates no text and loads from here alone.
+/// The same for pages with code that readers edit and run, in a worker whose script is a blob. The
+/// worker's script inherits this policy, so it cannot evaluate text or load from other origins.
 pub const PROGRAM_POLICY: &str = policy!("", " blob:", "");
 
-/// The same for pages inside frames of other pages. Browsers ignore the last directive in the page
+/// The same for pages inside frames on other pages. Browsers ignore the last directive in the page
 /// itself.
 pub const FRAME_POLICY: &str = policy!("", "", "; frame-ancestors *");
 

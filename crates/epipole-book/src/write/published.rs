@@ -1,4 +1,4 @@
-//! Facts of a published page for search engines, as schema.org names them.
+//! Facts of a published page for search engines, in the vocabulary of schema.org.
 
 use super::address::{address, of_page};
 use super::cards::Card;
@@ -7,19 +7,19 @@ use crate::render::terms::name_of;
 use mdbook_driver::config::Config;
 use serde_json::{Value, json};
 
-/// A book whose address is known.
+/// A book with a known address.
 pub(crate) struct Published {
-    /// With a trailing slash.
+    /// Address with a trailing slash.
     root: String,
     title: String,
     language: String,
     authors: Vec<String>,
-    /// Addresses, `[output.epipole] licenses`.
+    /// Addresses of the licenses, `[output.epipole] licenses`.
     licenses: Vec<String>,
 }
 
 impl Published {
-    /// None without an address.
+    /// Returns `None` without an address.
     pub(super) fn of(config: &Config) -> Option<Published> {
         let book = &config.book;
         let licenses = config.get::<Vec<String>>("output.epipole.licenses");
@@ -32,7 +32,7 @@ impl Published {
         })
     }
 
-    /// Path of the book on its server, with slashes at both ends.
+    /// Returns the path of the book on its server, with slashes at both ends.
     pub(super) fn folder(&self) -> &str {
         let rest = self.root.split_once("://").map_or("", |(_, rest)| rest);
         rest.find('/').map_or("/", |start| &rest[start..])
@@ -42,7 +42,7 @@ impl Published {
         of_page(&self.root, &page.path)
     }
 
-    /// A card with its address.
+    /// Returns a card with its absolute address.
     pub(super) fn with_address(&self, card: &Card) -> Card {
         Card {
             path: format!("{}{}", self.root, card.path),
@@ -50,8 +50,8 @@ impl Published {
         }
     }
 
-    /// A chapter as a learning resource, in JSON that a script element can hold. Other pages have
-    /// no facts.
+    /// Describes a chapter as a learning resource, in JSON for a script element. `None` for other
+    /// pages.
     pub(super) fn facts(&self, page: &Page, description: &str) -> Option<String> {
         let number = page.number.as_ref()?;
         let authors = self.authors.iter();

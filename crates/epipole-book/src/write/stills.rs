@@ -1,6 +1,6 @@
-//! Stills: small pictures of all figures with their words, for pages without widgets. They are part
-//! of the Python package, so each is a PNG of few colors in which runs of similar pixels are one
-//! color: drawings stay the same, photographs become coarse.
+//! Stills: small pictures of all figures with their descriptions, for pages without widgets. They
+//! are part of the Python package, so each is a PNG of few colors in which runs of similar pixels
+//! have one color: drawings do not change, photographs become coarse.
 
 use crate::resolve::facts::Facts;
 use crate::resolve::figures::{Gallery, Poster, Room};
@@ -11,14 +11,14 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Pixels in a row of a still. A figure is laid out for a column and reduced.
+/// Width of a still, pixels. A figure is laid out for a column and downscaled.
 const WIDTH: u32 = 400;
 
-/// Target size of a still, bytes: 31 of them and the modules are less than 1.2 MB.
+/// Target size of a still, bytes: 31 of them and the modules take less than 1.2 MB.
 const BYTES: usize = 6_800;
 
-/// Colors, and how far a pixel may be from the color that its neighbor has, of 255: the first that
-/// is small enough.
+/// Number of colors, and tolerance for reusing a neighbor's color, 0 to 255. The first pair whose
+/// result is small enough is used.
 const LADDER: [(usize, i32); 9] = [
     (32, 0),
     (32, 6),
@@ -31,15 +31,14 @@ const LADDER: [(usize, i32); 9] = [
     (12, 46),
 ];
 
-/// Share of the pixels, in thousandths, above which a color is kept exactly.
+/// Fraction of the pixels above which a color is kept exactly, in thousandths.
 const FREQUENT: usize = 5;
 
 type Color = [u8; 3];
 
-/// Writes `NAME.png` for each figure and `words.json`, their descriptions, to a folder.
+/// Writes `NAME.png` for each figure, and all descriptions as `words.json`, to a folder.
 ///
-/// # Errors
-/// A figure that cannot be drawn, or a folder that cannot be written.
+/// # Errors A figure that cannot be drawn, or a folder that is not writable.
 pub fn write(gallery: &dyn Gallery, folder: &Path) -> Result<usize> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
@@ -60,7 +59,7 @@ pub fn write(gallery: &dyn Gallery, folder: &Path) -> Result<usize> {
     Ok(names.len())
 }
 
-/// Description and PNG of a figure's initial state.
+/// Returns description and PNG of a figure's initial state.
 fn still(gallery: &dyn Gallery, name: &str) -> Result<(String, Vec<u8>), String> {
     let figure = gallery.open(name, &[])?;
     let facts = Facts::parse(&figure.snapshot()?)?;
@@ -76,7 +75,7 @@ struct Picture {
 }
 
 impl Picture {
-    /// A poster on white, reduced.
+    /// Downscales a poster on white.
     fn reduced(poster: &Poster, width: u32) -> epipole::Result<Picture> {
         let width = width.min(poster.width);
         let height = (poster.height * width / poster.width).max(1);
@@ -101,7 +100,7 @@ impl Picture {
     }
 }
 
-/// The first PNG of the ladder that is small enough, or the last.
+/// Returns the first PNG of the ladder that is small enough, or the last.
 fn small(picture: &Picture) -> Result<Vec<u8>, String> {
     let mut made = Vec::new();
     for (colors, tolerance) in LADDER {
@@ -116,7 +115,7 @@ fn small(picture: &Picture) -> Result<Vec<u8>, String> {
     Ok(made)
 }
 
-/// The colors of a picture; the first `exact` of them are its most frequent ones.
+/// Colors of a picture; the first `exact` of them are its most frequent ones.
 struct Palette {
     colors: Vec<Color>,
     exact: usize,
@@ -148,15 +147,15 @@ impl Palette {
     }
 }
 
-/// Squared perceptual distance of two colors: green counts most.
+/// Returns the squared perceptual distance of two colors: green counts most.
 fn distance_sq(one: Color, other: Color) -> i32 {
     let difference = |channel: usize| i32::from(one[channel]) - i32::from(other[channel]);
     let [r, g, b] = [difference(0), difference(1), difference(2)];
     (2 * r * r + 4 * g * g + b * b) / 7
 }
 
-/// Median cut: halves the box of colors that spreads most until there are `limit`, and answers
-/// their means.
+/// Quantizes colors by median cut: halves the box of colors with the largest spread until there are
+/// `limit`, and returns their means.
 ///
 /// Source: Heckbert 1982, Color image quantization for frame buffer display.
 fn cut(colors: Vec<(Color, usize)>, limit: usize) -> Vec<Color> {
@@ -191,8 +190,8 @@ fn cut(colors: Vec<(Color, usize)>, limit: usize) -> Vec<Color> {
     boxes.iter().map(|inside| mean(inside)).collect()
 }
 
-/// Squared range of a box's widest channel, weighted by the root of the number of colors, and that
-/// channel.
+/// Returns the squared range of a box's widest channel, weighted by the root of the number of
+/// colors, and that channel.
 fn spread(inside: &[(Color, usize)]) -> (u64, usize) {
     let count: usize = inside.iter().map(|(_, count)| count).sum();
     let range = |channel: usize| {
@@ -215,8 +214,8 @@ fn mean(inside: &[(Color, usize)]) -> Color {
     [0, 1, 2].map(|channel| (sum(channel) / all.max(1)) as u8)
 }
 
-/// Palette index of each pixel: that of its neighbor above or to the left if close enough, else the
-/// nearest. Pixels with a frequent color keep it.
+/// Returns the palette index of each pixel: that of its neighbor above or to the left if close
+/// enough, else the nearest. Pixels with a frequent color keep it.
 fn indices(picture: &Picture, palette: &Palette, tolerance: i32) -> Vec<u8> {
     let mut found: Vec<u8> = Vec::with_capacity(picture.pixels.len());
     let mut from_above = false;
@@ -243,9 +242,9 @@ fn indices(picture: &Picture, palette: &Palette, tolerance: i32) -> Vec<u8> {
     found
 }
 
-/// A PNG with a palette of at most 256 colors.
+/// Encodes a PNG with a palette of at most 256 colors.
 fn encode(width: usize, palette: &[Color], indices: &[u8]) -> Result<Vec<u8>, EncodingError> {
-    // As few bits a pixel as the palette needs.
+    // As few bits per pixel as the palette needs.
     let depth = match palette.len() {
         0..=2 => BitDepth::One,
         3..=4 => BitDepth::Two,
@@ -269,7 +268,7 @@ fn encode(width: usize, palette: &[Color], indices: &[u8]) -> Result<Vec<u8>, En
     encoder.set_depth(depth);
     encoder.set_palette(palette.as_flattened());
     encoder.set_deflate_compression(DeflateCompression::Level(9));
-    // Neighbors in a palette are no neighbors in color.
+    // Neighboring indices of a palette are not neighboring colors.
     encoder.set_filter(Filter::NoFilter);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&packed)?;
@@ -286,7 +285,7 @@ mod tests {
     const WHITE: Color = [255; 3];
     const INK: Color = [11, 22, 33];
 
-    /// A white page with a line of ink, and a photograph full of noise in its lower half.
+    /// A white page with a dark line, and a noisy photograph in its lower half.
     fn page() -> Picture {
         let (width, height) = (200, 160);
         let mut state = 1_u32;
@@ -305,7 +304,7 @@ mod tests {
         }
     }
 
-    /// The size of the palette and the colors of all pixels.
+    /// Returns the size of the palette and the colors of all pixels.
     fn read(file: &[u8]) -> (usize, Vec<Color>) {
         let mut decoder = Decoder::new(Cursor::new(file));
         decoder.set_transformations(Transformations::EXPAND);
@@ -325,7 +324,7 @@ mod tests {
         assert_eq!(pixels.len(), picture.pixels.len());
         let drawn = 80 * picture.width;
         assert_eq!(pixels[..drawn], picture.pixels[..drawn]);
-        // Noise of three bytes a pixel would be 48 kB.
+        // Noise at three bytes per pixel would take 48 kB.
         assert!(png.len() < 12_000, "{} bytes", png.len());
     }
 
@@ -357,7 +356,7 @@ mod tests {
                 .flat_map(|[r, g, b]| [*r, *g, *b, 255])
                 .collect(),
         };
-        // Three columns on two: each new one covers one and a half.
+        // Three columns become two, each of which covers one and a half.
         let picture = Picture::reduced(&poster, 2).unwrap();
         assert_eq!(picture.pixels, vec![[30; 3], [190; 3]]);
         assert_eq!(Picture::reduced(&poster, 9).unwrap().pixels.len(), 6);

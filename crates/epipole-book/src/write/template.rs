@@ -24,9 +24,9 @@ pub(crate) struct Template<'a> {
     book_title: String,
     description: String,
     language: String,
-    /// If the address of the published book is known.
+    /// Facts for search engines, if the address of the published book is known.
     published: Option<Published>,
-    /// By the path of their page.
+    /// Cards by the path of their page.
     cards: BTreeMap<String, Card>,
     assets: &'a Assets,
     search: &'a str,
@@ -38,7 +38,7 @@ pub(crate) struct Template<'a> {
 #[derive(Serialize)]
 struct Data<'a> {
     language: &'a str,
-    /// `Chapter · Book`, or the book alone on its first page.
+    /// `Chapter · Book`; on the first page only the book.
     title: String,
     book_title: &'a str,
     description: &'a str,
@@ -46,19 +46,19 @@ struct Data<'a> {
     canonical: Option<&'a str>,
     /// Facts for search engines, as JSON.
     structured: Option<String>,
-    /// Picture beside links to the published page.
+    /// Preview picture for links to the published page.
     card: Option<Card>,
-    /// From this page to the folder of the site: empty or `../`s.
+    /// Path from this page to the root of the site: empty or `../`s.
     root: &'a str,
     policy: &'a str,
     content: &'a str,
     page_class: &'a str,
     assets: &'a Assets,
     has_figures: bool,
-    /// Titles of works are in italics everywhere on their page, so nothing should move when those
-    /// come.
+    /// Whether it contains the list of references: the italic font of its titles is then preloaded,
+    /// to avoid a layout shift.
     has_references: bool,
-    /// Goals of a chapter's figures, each `figure/goal`, between blanks.
+    /// Goals of a chapter's figures, each `figure/goal`, separated by spaces.
     goals: Option<String>,
     search: &'a str,
     /// Whether the manual of the Python package is part of the site.
@@ -86,7 +86,7 @@ struct NavEntry {
     number: Option<String>,
     title: String,
     path: Option<String>,
-    /// `aria-current` of the entry of this page, or of the page that it belongs to.
+    /// `aria-current` of the entry for this page or its parent.
     current: Option<&'static str>,
     sections: Vec<NavSection>,
 }
@@ -105,7 +105,7 @@ struct NavLink {
 }
 
 impl Nav {
-    /// The place of `pages[index]`; beyond the last page, a place outside the book.
+    /// Returns the position of `pages[index]`; beyond the last page, a position outside the book.
     pub(crate) fn new(entries: &[Entry], pages: &[Page], index: usize) -> Nav {
         let current = pages.get(index);
         let link = |page: &Page| NavLink {
@@ -144,7 +144,7 @@ impl Nav {
                 }
             })
             .collect();
-        // Of the same list: chapters, or the parts of one page.
+        // Pages of the same list: chapters, or the subpages of one page.
         let is_beside = |page: &&Page| current.is_none_or(|current| page.parent == current.parent);
         let previous = index.checked_sub(1).and_then(|before| pages.get(before));
         let next = pages.get(index + 1);
@@ -211,7 +211,7 @@ impl<'a> Template<'a> {
         self.cards = cards;
     }
 
-    /// The HTML of a page.
+    /// Returns the HTML of a page.
     pub(crate) fn page(&self, page: &Page, nav: &Nav) -> Result<String> {
         let title = if page.path == "index.html" {
             self.book_title.clone()
@@ -265,8 +265,8 @@ impl<'a> Template<'a> {
         html.with_context(|| format!("the page {} cannot be made", page.path))
     }
 
-    /// Page for an address that does not exist. Its links begin at the root of the server if the
-    /// address of the book is known, or else are relative to the folder of the site.
+    /// Returns the page for addresses that do not exist. Its links start at the root of the server
+    /// if the address of the book is known; otherwise they are relative to the folder of the site.
     pub(crate) fn not_found(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
         let page = Page {
             path: NOT_FOUND.to_owned(),
@@ -279,8 +279,7 @@ impl<'a> Template<'a> {
         self.page(&page, &Nav::new(entries, pages, pages.len() + 1))
     }
 
-    /// Placeholder for the Lab until it is built: building it takes minutes, and the book links to
-    /// it.
+    /// Returns a placeholder for the Lab, which the book links to: building the Lab takes minutes.
     pub(crate) fn without_lab(&self, entries: &[Entry], pages: &[Page]) -> Result<String> {
         let page = Page {
             path: format!("{LAB_FOLDER}/index.html"),

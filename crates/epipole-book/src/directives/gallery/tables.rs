@@ -3,7 +3,7 @@
 use crate::html::escape;
 use serde_json::Value;
 
-/// All tables; those without rows are left out.
+/// Renders all tables; those without rows are omitted.
 pub(super) fn tables(snapshot: &Value) -> String {
     let all = [settings, readouts, buttons, keys];
     all.map(|table| table(snapshot)).concat()
@@ -17,7 +17,7 @@ fn words<'a>(entry: &'a Value, key: &str) -> &'a str {
     entry[key].as_str().unwrap_or_default()
 }
 
-/// A number or a truth as an attribute takes it.
+/// Formats a number or boolean as an attribute value.
 fn plain(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
@@ -26,10 +26,10 @@ fn plain(value: &Value) -> String {
     }
 }
 
-/// A row of a table, its name first.
+/// A row of a table, starting with a name.
 struct Row {
     cells: Vec<String>,
-    /// Attribute of the element that chooses whether this is shown.
+    /// Attribute of the element that shows or hides this.
     shown_by: Option<&'static str>,
 }
 
@@ -64,7 +64,7 @@ fn table(summary: &str, columns: &[&str], rows: &[Row]) -> String {
     )
 }
 
-/// Everything that an attribute, a property or an address can set.
+/// Lists everything that an attribute, a property or an address can set.
 fn settings(snapshot: &Value) -> String {
     let controls = entries(snapshot, "controls").filter_map(|control| {
         let values = match words(control, "kind") {
@@ -140,7 +140,7 @@ fn buttons(snapshot: &Value) -> String {
     table("What can be pressed", &["Name", "Label"], &rows)
 }
 
-/// Keyboard help for the items of this figure, matching `web/src/handles.ts`.
+/// Lists the keys of this figure's items, matching `web/src/handles.ts`.
 fn keys(snapshot: &Value) -> String {
     let has = |list: &str, what: &dyn Fn(&Value) -> bool| entries(snapshot, list).any(what);
     let points = has("handles", &|_| true);

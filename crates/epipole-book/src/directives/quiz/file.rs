@@ -1,4 +1,4 @@
-//! `quizzes/<name>.toml` to questions.
+//! Parsing of `quizzes/<name>.toml` into questions.
 
 use super::numeric::{Answer, Number};
 use crate::parse::source::Source;
@@ -18,18 +18,18 @@ struct Written {
     /// Permanent: the reader's progress is stored under it.
     id: String,
     prompt: String,
-    /// Multiple choice: one right answer makes radio buttons, several make check boxes. A choice
-    /// can be a picture: `{{#small figure … | words}}`.
+    /// Multiple choice: radio buttons for one correct choice, check boxes for several. A choice can
+    /// be a picture: `{{#small figure … | words}}`.
     #[serde(default)]
     choices: Vec<WrittenChoice>,
-    /// Put in order: what comes first stands first; readers see them shuffled.
+    /// Steps to put in order, written in the correct order; readers see them shuffled.
     #[serde(default)]
     steps: Vec<String>,
-    /// A numeric answer that the core computes, written as in `{{#value …}}`.
+    /// A numeric answer computed by the core, written as in `{{#value …}}`.
     value: Option<String>,
-    /// A numeric answer that only the question defines.
+    /// A numeric answer defined by the question itself.
     answer: Option<f64>,
-    /// Tolerance of a numeric answer; 0 where it is not given.
+    /// Tolerance of a numeric answer [default: 0].
     #[serde(default)]
     tolerance: f64,
     unit: Option<String>,
@@ -42,14 +42,14 @@ struct WrittenChoice {
     text: String,
     #[serde(default)]
     right: bool,
-    /// Answer to a reader who picks it.
+    /// Feedback for a reader who picks it.
     why: Option<String>,
 }
 
 /// A question. `T` is the stage of its texts.
 pub(super) struct Question<T> {
     pub(super) id: String,
-    /// Counted from 1.
+    /// Number, from 1.
     pub(super) number: usize,
     pub(super) kind: Kind<T>,
     pub(super) prompt: T,
@@ -59,13 +59,13 @@ pub(super) struct Question<T> {
 
 /// Kinds of questions.
 pub(super) enum Kind<T> {
-    /// Choices, the first of them right, as authors like to write them.
+    /// Choices, of which the first is correct, as authors write them.
     Choices(Vec<Choice<T>>),
-    /// Steps in the right order.
+    /// Steps in the correct order.
     Steps(Vec<T>),
-    /// A number, once asked for, then known.
+    /// A numeric answer that is not computed yet.
     Number(Number),
-    /// A number that is known.
+    /// A known numeric answer.
     Answer(Answer),
 }
 
@@ -76,10 +76,10 @@ pub(super) struct Choice<T> {
     pub(super) why: Option<T>,
 }
 
-/// Makes a text of what is written at a place.
+/// Converts a text written at a place.
 pub(super) type MakeText<'a, T> = dyn FnMut(&str, &Place) -> T + 'a;
 
-/// The questions of a file that have no problems. Problems are reported.
+/// Parses the questions of a file, without those that have problems. Problems are reported.
 pub(super) fn parse<T>(
     source: &Source,
     text: &mut MakeText<T>,
@@ -155,7 +155,7 @@ fn kind<T>(written: &Written, place: &Place, text: &mut MakeText<T>) -> Result<K
 }
 
 impl<T> Question<T> {
-    /// The question with its texts and its number resolved; none if there is a problem, which is
+    /// Resolves the texts and the number of the question; `None` if there is a problem, which is
     /// reported.
     pub(super) fn resolve<U>(
         self,

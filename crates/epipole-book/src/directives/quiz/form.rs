@@ -7,10 +7,10 @@ use crate::html::escape;
 use crate::render::page::Solvable;
 use epipole::math::random::Random;
 
-/// Renders a text that stands inside a paragraph.
+/// Renders a text inside a paragraph.
 type Inline<'a, T> = dyn FnMut(T) -> String + 'a;
 
-/// The HTML of a quiz, and its questions.
+/// Renders a quiz as HTML. Returns it with its questions.
 pub(super) fn quiz<T>(
     name: &str,
     questions: Vec<Question<T>>,
@@ -57,7 +57,7 @@ fn form<T>(name: &str, question: Question<T>, inline: &mut Inline<T>) -> (String
     (html, Solvable { id, hash })
 }
 
-/// Radio buttons or check boxes, and the answer in words.
+/// Renders radio buttons or check boxes. Returns them with the answer as text.
 fn multiple_choice<T>(
     key: &str,
     group: &str,
@@ -87,8 +87,8 @@ fn multiple_choice<T>(
     (fields, answers.join("; "))
 }
 
-/// Steps to put in order: a list of places beside each, which needs neither a mouse nor a steady
-/// hand.
+/// Renders steps to put in order. Each has a list of positions, which needs neither a mouse nor a
+/// steady hand. Returns them with the answer as text.
 fn ordering<T>(key: &str, steps: Vec<T>, inline: &mut Inline<T>) -> (String, String) {
     let steps: Vec<String> = steps.into_iter().map(inline).collect();
     let places: String = (1..=steps.len())
@@ -115,7 +115,7 @@ fn ordering<T>(key: &str, steps: Vec<T>, inline: &mut Inline<T>) -> (String, Str
     )
 }
 
-/// A field for a number, and the answer in words.
+/// Renders a field for a number. Returns it with the answer as text.
 fn numeric(group: &str, answer: &Answer) -> (String, String) {
     let Answer {
         value,
@@ -132,8 +132,8 @@ fn numeric(group: &str, answer: &Answer) -> (String, String) {
     (fields, format!("{printed}{unit}"))
 }
 
-/// The order in which the choices of a question stand, the same in every build: authors write the
-/// right one first, and a reader must not find it there.
+/// Returns the order of a question's choices, the same in every build. It is shuffled, since
+/// authors write the correct choice first.
 fn order(question: &str, count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..count).collect();
     let mut random = Random::new(fnv(question.as_bytes()));
@@ -200,7 +200,7 @@ mod tests {
 
     #[test]
     fn the_place_of_a_right_answer_tells_nothing() {
-        // Of many questions with four choices, whose first is the right one.
+        // Many questions with four choices, the first of which is correct.
         let places: Vec<usize> = (0..400)
             .map(|index| {
                 let order = order(&format!("quiz question-{index}"), 4);

@@ -2,7 +2,7 @@
 
 use crate::resolve::numbers::{self, Number as Computed};
 
-/// A numeric answer as it is written.
+/// A numeric answer as written.
 pub(super) struct Number {
     /// Expression computed by the core, written as in `{{#value …}}`.
     pub(super) value: Option<String>,
@@ -12,10 +12,10 @@ pub(super) struct Number {
     pub(super) unit: Option<String>,
 }
 
-/// A numeric answer that is known.
+/// A known numeric answer.
 pub(super) struct Answer {
     pub(super) value: f64,
-    /// As the page prints it.
+    /// The number as printed on the page.
     pub(super) printed: String,
     pub(super) tolerance: f64,
     pub(super) unit: Option<String>,
@@ -24,8 +24,7 @@ pub(super) struct Answer {
 impl Number {
     /// Computes the answer.
     ///
-    /// # Errors
-    /// A sentence.
+    /// # Errors A message.
     pub(super) fn answer(self) -> Result<Answer, String> {
         let (value, printed) = match (&self.value, self.answer) {
             (Some(call), _) => {

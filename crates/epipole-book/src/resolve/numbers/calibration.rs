@@ -56,7 +56,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Returns the ray (x, y, 1) as a lens with k1 bends it.
+/// Returns the ray (x, y, 1) distorted by a lens with k1.
 fn bent(a: &Arguments) -> Point2<f64> {
     let lens = Distortion {
         k1: a.get("k1"),

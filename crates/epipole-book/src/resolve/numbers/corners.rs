@@ -97,8 +97,9 @@ fn tensor(a: &Arguments) -> WindowTensor {
     WindowTensor::from_gradients(&gradients.map(|(u, v)| Vector2::new(a.get(u), a.get(v))))
 }
 
-/// Responses go with the fourth power of gradients: the divisor is the fourth root of how much
-/// smaller OpenCV's are than the formula's, and 8-bit images are divided by 255 before.
+/// Returns the divisor that converts gradients for OpenCV. Responses grow with the fourth power of
+/// gradients, so it is the fourth root of the ratio of the formula's response to OpenCV's; 8-bit
+/// images are also divided by 255.
 fn opencv_divisor(block: usize) -> Result<Number, String> {
     let mut values = vec![0.0; 25];
     values[12] = 1.0;

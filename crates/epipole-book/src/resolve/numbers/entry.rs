@@ -1,21 +1,21 @@
-//! Entries of the registry of numbers, and what they compute from.
+//! Entries of the registry of numbers, and their arguments.
 
 use nalgebra::Point2;
 
-/// A number as the core gives it, and how many decimals to print.
+/// A number computed by the core, with its number of printed decimals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Number {
-    /// A whole number.
+    /// An integer.
     Count(u64),
     /// A real number and its decimals.
     Real(f64, usize),
 }
 
-/// One line of the registry.
+/// An entry of the registry.
 pub struct Entry {
     /// Name in chapters.
     pub name: &'static str,
-    /// The parameters; all must be given.
+    /// Parameters, all of which are required.
     pub parameters: &'static [&'static str],
     /// Description for authors.
     pub summary: &'static str,
@@ -40,7 +40,7 @@ impl<'a> Arguments<'a> {
             .unwrap_or(f64::NAN)
     }
 
-    /// A parameter that counts something.
+    /// Returns a parameter that is a count.
     pub(super) fn count(&self, name: &str) -> Result<usize, String> {
         let value = self.get(name);
         if (0.0..1e9).contains(&value) && value == value.trunc() {
@@ -50,7 +50,7 @@ impl<'a> Arguments<'a> {
         }
     }
 
-    /// A parameter that counts from 1 to `length`, as an index.
+    /// Returns a parameter that is an index from 1 to `length`.
     pub(super) fn index(&self, name: &str, length: usize) -> Result<usize, String> {
         let index = self.count(name)?.checked_sub(1);
         index
@@ -58,12 +58,12 @@ impl<'a> Arguments<'a> {
             .ok_or_else(|| format!("{name} must be 1 to {length}"))
     }
 
-    /// (u, v), a pixel of image 1.
+    /// Returns (u, v), a pixel of image 1.
     pub(super) fn pixel1(&self) -> Point2<f64> {
         Point2::new(self.get("u"), self.get("v"))
     }
 
-    /// (u2, v2), a pixel of image 2.
+    /// Returns (u2, v2), a pixel of image 2.
     pub(super) fn pixel2(&self) -> Point2<f64> {
         Point2::new(self.get("u2"), self.get("v2"))
     }

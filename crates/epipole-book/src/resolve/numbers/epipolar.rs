@@ -96,12 +96,12 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Two equal cameras that look the same way; t takes coordinates of camera 1 to camera 2.
+/// Two identical cameras with parallel axes; t transforms coordinates from camera 1 to camera 2.
 const PAIR: &[&str] = &["f", "cu", "cv", "tx", "ty", "tz"];
 const MATCH: &[&str] = &["f", "cu", "cv", "tx", "ty", "tz", "u", "v", "u2", "v2"];
 
-/// The matches that the chapter on the eight-point algorithm works with: u, v, u2, v2, rounded to
-/// whole pixels.
+/// The matches used in the chapter on the eight-point algorithm: u, v, u2, v2, rounded to whole
+/// pixels.
 const TEN_MATCHES: [[f64; 4]; 10] = [
     [584.0, 385.0, 506.0, 399.0],
     [97.0, 341.0, 114.0, 338.0],
@@ -115,7 +115,7 @@ const TEN_MATCHES: [[f64; 4]; 10] = [
     [587.0, 368.0, 612.0, 381.0],
 ];
 
-/// F from the ten matches, `normalized=1` or not.
+/// Estimates F from the ten matches, with normalization if `normalized=1`.
 fn ten_matches(a: &Arguments) -> Result<EightPoint, String> {
     let pixels1 = TEN_MATCHES.map(|[u, v, _, _]| Point2::new(u, v));
     let pixels2 = TEN_MATCHES.map(|[_, _, u2, v2]| Point2::new(u2, v2));

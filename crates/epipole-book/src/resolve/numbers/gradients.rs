@@ -129,7 +129,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// The patch that the chapter on gradients works by hand, rows from above.
+/// The patch that the chapter on gradients computes by hand, rows from the top.
 const PATCH: [f32; 9] = [30.0, 60.0, 90.0, 40.0, 90.0, 140.0, 35.0, 120.0, 150.0];
 
 fn gray_row(levels: &[f64]) -> Result<GrayImage32, String> {
@@ -160,7 +160,7 @@ fn sobel_of_patch(a: &Arguments) -> Result<f64, String> {
     Ok(answer.get_pixel(1, 1).0[0].into())
 }
 
-/// Smoothing and slope; for sigma=0 those of the centered difference.
+/// Returns the smoothing and derivative kernels; for sigma=0 those of the central difference.
 fn kernels(a: &Arguments) -> Result<(Vec<f32>, Vec<f32>), String> {
     if a.get("sigma") == 0.0 {
         return Ok((vec![1.0], vec![-0.5, 0.0, 0.5]));

@@ -6,7 +6,7 @@ use epipole::camera::{Intrinsics, RigidTransform};
 use epipole::homography::{homography_from_motion, transfer};
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// A level camera at the height h, and a place of the floor or a pixel.
+/// A level camera at height h, and a point of the floor or a pixel.
 const FLOOR: &[&str] = &["f", "cu", "cv", "h", "x", "z"];
 const PIXEL: &[&str] = &["f", "cu", "cv", "h", "u", "v"];
 
@@ -98,12 +98,12 @@ fn camera(focal_px: f64, cu: f64, cv: f64) -> Result<Intrinsics, String> {
     Intrinsics::new(focal_px, focal_px, cu, cv).map_err(sentence)
 }
 
-/// The homography of a wall at this distance, square to the optical axis.
+/// Returns the homography of a wall at this distance, perpendicular to the optical axis.
 fn of_plane(motion: &RigidTransform, distance: f64, intrinsics: &Intrinsics) -> Matrix3<f64> {
     homography_from_motion(motion, &-Vector3::z(), distance, intrinsics, intrinsics)
 }
 
-/// The homography from places (x, z) of the floor to pixels.
+/// Returns the homography from points (x, z) of the floor to pixels.
 fn pixel_from_floor(a: &Arguments) -> Result<Matrix3<f64>, String> {
     let intrinsics = camera(a.get("f"), a.get("cu"), a.get("cv"))?;
     let columns = [Vector3::x(), Vector3::z(), Vector3::y() * a.get("h")];

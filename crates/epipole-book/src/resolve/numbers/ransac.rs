@@ -47,7 +47,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Chance that a sample holds inliers only, wˢ, for 0 < w < 1.
+/// Returns the probability that a sample contains only inliers, wˢ, for 0 < w < 1.
 fn all_inliers(a: &Arguments) -> Result<f64, String> {
     let (share, size) = (a.get("w"), a.count("s")?);
     if share <= 0.0 || share >= 1.0 || size == 0 {

@@ -76,11 +76,11 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Columns of one point in three equal cameras side by side.
+/// Columns of one point in three identical cameras side by side.
 const THREE_COLUMNS: &[&str] = &["u1", "u2", "u3"];
 
-/// The smallest singular value of the rows (1, −m, −B), m = (u − 320) / 500, of cameras at B = 0,
-/// 0.4 and 0.8, and (X, Z) by its singular vector.
+/// Returns the smallest singular value of the rows (1, −m, −B), m = (u − 320) / 500, of cameras at
+/// B = 0, 0.4 and 0.8, and (X, Z) from its singular vector.
 fn three_rays(a: &Arguments) -> Result<(f64, [f64; 2]), String> {
     let row =
         |name: &str, baseline: f64| RowVector3::new(1.0, -(a.get(name) - 320.0) / 500.0, -baseline);

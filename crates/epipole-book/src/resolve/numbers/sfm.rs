@@ -50,14 +50,14 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Depths along the two rays at which they cross; see `sfm.depth`.
+/// Returns the depths along two rays at their intersection; see `sfm.depth`.
 fn crossing(a: &Arguments) -> Result<(f64, f64), String> {
     let half_turn = match a.count("turned")? {
         0 => 0.0,
         1 => core::f64::consts::PI,
         _ => return Err("turned must be 0 or 1".to_owned()),
     };
-    // A step to the right moves everything to the left.
+    // A camera motion to the right moves everything to the left.
     let t = Vector3::new(-a.get("sign"), 0.0, 0.0);
     let motion = RigidTransform::new(t, Vector3::new(half_turn, 0.0, 0.0));
     let (x1, x2) = (Vector3::z(), Vector3::new(a.get("x"), 0.0, 1.0));

@@ -1,4 +1,4 @@
-//! A worked example of each number, and what is said of mistakes.
+//! A worked example of each number, and messages for errors.
 
 use super::*;
 

@@ -54,7 +54,7 @@ pub(super) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// Two equal cameras that look the same way, the second one at (x, 0, z).
+/// Returns two identical cameras with parallel axes, the second one at (x, 0, z).
 fn looking_ahead(focal_px: f64, x: f64, z: f64) -> Result<[PosedCamera; 2], String> {
     let intrinsics = Intrinsics::new(focal_px, focal_px, 320.0, 240.0).map_err(sentence)?;
     Ok([(0.0, 0.0), (x, z)].map(|(x, z)| PosedCamera {
@@ -70,15 +70,15 @@ fn point(a: &Arguments) -> Result<Number, String> {
     Ok(Real(point[a.index("axis", 3)?], 3))
 }
 
-/// The match that the chapter works with, by one method: camera 2 is 0.1 m to the right and 2 m
-/// ahead, the pixels are (320, 242) and (220, 238). The point, and how far it lands from each
+/// Triangulates the match used in the chapter, by one method: camera 2 is 0.1 m to the right and 2
+/// m ahead, the pixels are (320, 242) and (220, 238). Returns the point, and its distance from each
 /// pixel.
 fn ahead(a: &Arguments) -> Result<(Point3<f64>, [f64; 2]), String> {
     let cameras = looking_ahead(500.0, 0.1, 2.0)?;
     let pixels = [Point2::new(320.0, 242.0), Point2::new(220.0, 238.0)];
     let [first, second] = &cameras;
     let [x1, x2] = &pixels;
-    // Camera 1 is the world, and both look the same way.
+    // Camera 1 is the world frame, and the axes are parallel.
     let (ray1, ray2) = (first.ray_in_world(x1), second.ray_in_world(x2));
     let motion = second.cam_from_world;
     let matrices = cameras.map(|camera| camera.projection_matrix());
@@ -114,7 +114,7 @@ fn error_px(a: &Arguments) -> Result<Number, String> {
     Ok(Real(((one * one + two * two) / 2.0).sqrt(), 2))
 }
 
-/// Lengths of the half axes of the region of one standard deviation, longest first.
+/// Returns the lengths of the semi-axes of the one-sigma ellipsoid, longest first.
 fn half_axes(
     cameras: &[PosedCamera],
     point: &Point3<f64>,
@@ -146,7 +146,7 @@ fn sigma_mm(a: &Arguments) -> Result<Number, String> {
         &Point3::origin(),
         a.get("sigma"),
     )?;
-    // Across, in the plane of the rays, it is never shorter than out of that plane.
+    // In the plane of the rays the width is never smaller than out of that plane.
     Ok(Real(1000.0 * axes[a.index("axis", 3)?], 1))
 }
 

@@ -1,4 +1,4 @@
-//! Bundling by esbuild. Names carry hashes; entries keep their first part.
+//! Bundling by esbuild. Hashes are appended to the names of entries.
 
 use super::files::Assets;
 use crate::tools::{Tools, read};
@@ -19,7 +19,7 @@ struct Output {
     entry: Option<PathBuf>,
 }
 
-/// Bundles one entry into `assets`. Returns name of the entry → path.
+/// Bundles one entry into `assets`. Returns the path by the name of the entry.
 pub(super) fn bundle(
     tools: &Tools,
     entry: &str,

@@ -1,6 +1,6 @@
-//! `embed/`: what other sites load. `epipole.js` is always the newest; `<version>/epipole.js` is
-//! that of one version, with the hashes of all that it loads; `widget.js` holds everything, for
-//! pages that show anywidgets.
+//! `embed/`: files for other sites. `epipole.js` is always the newest; `<version>/epipole.js` is
+//! fixed to a version, with the hashes of all its files; `widget.js` is self-contained, for pages
+//! with anywidgets.
 
 use super::files::Assets;
 use crate::tools::{Tools, read};
@@ -10,13 +10,13 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::{Map, json};
 use sha2::{Digest, Sha384};
 
-/// As the folder of this version is called.
+/// Version, which names its folder.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Paths of what figures consist of, from the root of the site.
+/// Paths of the figures' files, from the root of the site.
 pub(super) struct Parts<'a> {
     pub(super) elements: &'a str,
-    /// Tests have none.
+    /// Worker; tests have none.
     pub(super) worker: Option<&'a str>,
     pub(super) figures: &'a str,
     pub(super) jobs: &'a str,
@@ -24,8 +24,7 @@ pub(super) struct Parts<'a> {
 
 /// Adds the scripts for other sites.
 ///
-/// # Errors
-/// If a part was not made, or the glue for widgets cannot be read.
+/// # Errors If a part is missing, or the glue for widgets is unreadable.
 pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Result<()> {
     let newest = format!("export * from \"../{}\";\n", parts.elements);
     let fixed = format!("export * from \"../../{}\";\n", parts.elements);
@@ -73,7 +72,7 @@ pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Resu
     Ok(())
 }
 
-/// As the attribute `integrity` and import maps have it.
+/// Formats a hash for the attribute `integrity` and import maps.
 fn integrity(bytes: &[u8]) -> String {
     format!("sha384-{}", BASE64_STANDARD.encode(Sha384::digest(bytes)))
 }

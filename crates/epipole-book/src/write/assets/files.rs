@@ -17,7 +17,7 @@ pub struct Assets {
     pub elements: Option<String>,
     /// The style sheet inside the figures.
     pub figure_css: Option<String>,
-    /// The script of the pages with one figure, for frames.
+    /// The script of single-figure pages, for frames.
     pub frame: Option<String>,
     /// Their style sheet.
     pub frame_css: String,
@@ -25,7 +25,7 @@ pub struct Assets {
     pub deck: String,
     /// Their style sheet, besides that of the pages.
     pub deck_css: String,
-    /// Fonts that every page needs at once.
+    /// Fonts that every page needs immediately.
     pub preload: Vec<String>,
     /// The italic font.
     pub italic: Option<String>,
@@ -42,17 +42,17 @@ pub struct Assets {
 /// An icon of the installed book, as its manifest describes it.
 #[derive(Debug, Clone)]
 pub struct AppIcon {
-    /// From the root of the site.
+    /// Path from the root of the site.
     pub path: String,
     /// Sizes, CSS pixels.
     pub sizes: &'static str,
     /// MIME type.
     pub kind: &'static str,
-    /// `maskable` if any shape may be cut from it, else `any`.
+    /// `maskable` if it can be cropped to any shape, else `any`.
     pub purpose: &'static str,
 }
 
-/// Adds a file under `assets/` whose name carries a hash of its content. Returns its path.
+/// Adds a file under `assets/` with a hash of its content in its name. Returns its path.
 pub fn add_hashed(
     files: &mut BTreeMap<String, Vec<u8>>,
     name: &str,

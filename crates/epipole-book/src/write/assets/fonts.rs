@@ -1,4 +1,4 @@
-//! Fonts cut down to the letters that the book uses, by HarfBuzz (npm `subset-font`).
+//! Fonts, subset to the letters of the book by HarfBuzz (npm `subset-font`).
 
 use super::files::{Assets, add_hashed};
 use super::letters::Letters;
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Files of the family STIX Two (SIL Open Font License), and how the style sheet calls them.
+/// Files of the family STIX Two (SIL Open Font License), and their names in the style sheet.
 const FONTS: &[(&str, &str)] = &[
     (
         "text-regular",
@@ -30,8 +30,8 @@ const MATH: (&str, &str) = (
     "@fontsource/stix-two-math/files/stix-two-math-latin-400-normal.woff2",
 );
 
-/// Cuts the fonts and leaves them, with their hashed names, in `assets`.
-/// The style sheet, bundled later, finds them by [`font_url`].
+/// Subsets the fonts and adds them, with hashed names, to `assets`. The style sheet, bundled later,
+/// finds them by [`font_url`].
 pub(super) fn add(tools: &Tools, letters: &Letters, assets: &mut Assets) -> Result<()> {
     for (name, source) in FONTS {
         let wanted = if *name == "math" {
@@ -55,13 +55,13 @@ pub(super) fn add(tools: &Tools, letters: &Letters, assets: &mut Assets) -> Resu
     Ok(())
 }
 
-/// The font of formulas alone.
+/// Subsets only the math font.
 pub(super) fn math(tools: &Tools, letters: &Letters) -> Result<Vec<u8>> {
     let (name, source) = MATH;
     subset(tools, name, source, &letters.math)
 }
 
-/// The hashed file name of a font.
+/// Returns the hashed file name of a font.
 pub(super) fn font_url(assets: &Assets, name: &str) -> Result<String> {
     let start = format!("assets/stix-two-{name}-");
     let path = assets.files.keys().find(|path| path.starts_with(&start));

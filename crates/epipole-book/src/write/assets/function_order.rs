@@ -1,6 +1,6 @@
-//! Reorders the functions of a WebAssembly module so that similar ones are adjacent. A compressor
-//! finds repetitions only nearby (gzip looks back 32 KB), so the download is smaller, by some 6%
-//! as gzip and 3% as Brotli; the behavior is the same.
+//! Reordering of the functions of a WebAssembly module so that similar ones are adjacent.
+//! Compressors find repetitions only nearby (gzip looks back 32 KB), so the download becomes
+//! smaller, by some 6% with gzip and 3% with Brotli; the behavior is the same.
 
 use anyhow::{Context, Result, anyhow, ensure};
 use std::collections::{HashMap, VecDeque};
@@ -13,14 +13,13 @@ use wasmparser::{CodeSectionReader, FunctionSectionReader, Parser, Payload, Type
 const RUN: usize = 6;
 /// Sequences shared by more functions than this are ignored as uninformative.
 const COMMON: usize = 200;
-/// Distance in bytes over which functions are compared: somewhat less than gzip's window.
+/// Distance over which functions are compared, bytes; somewhat less than gzip's window.
 const WINDOW: usize = 30_000;
 
-/// The same module with its functions in an order that compresses well. The order depends on the
-/// bytes alone.
+/// Returns the module with its functions in an order that compresses well and depends only on the
+/// bytes.
 ///
-/// # Errors
-/// If the bytes are no WebAssembly module.
+/// # Errors If the bytes are not a WebAssembly module.
 pub(super) fn ordered(wasm: &[u8]) -> Result<Vec<u8>> {
     let mut num_imported = 0;
     let mut bodies = Vec::new();
@@ -59,7 +58,7 @@ pub(super) fn ordered(wasm: &[u8]) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// An order in which each function follows those that it has most in common with.
+/// Returns an order in which each function follows the most similar one.
 fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
     let mut holders: HashMap<&[u8], Vec<usize>> = HashMap::new();
     for (index, body) in bodies.iter().enumerate() {
@@ -70,7 +69,7 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
             }
         }
     }
-    // A number for each informative run, in order of first occurrence.
+    // Indices of informative sequences, in order of first occurrence.
     let mut telling: Vec<Vec<usize>> = Vec::new();
     let mut runs: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
     for (index, body) in bodies.iter().enumerate() {
@@ -89,7 +88,7 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
         }
     }
 
-    // Long functions have more in common with everything.
+    // Long functions have more in common with any other.
     let weight: Vec<f64> = bodies
         .iter()
         .map(|body| 1.0 / (body.len() as f64).sqrt())
@@ -101,7 +100,7 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
     let mut left: Vec<usize> = (0..bodies.len()).collect();
     let mut order = Vec::with_capacity(bodies.len());
     while !left.is_empty() {
-        // Of equals the first: the order must not depend on chance.
+        // Of equal values the first wins, for a deterministic order.
         let mut best = 0;
         let mut most = f64::NEG_INFINITY;
         for (at, &index) in left.iter().enumerate() {
@@ -140,12 +139,12 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
     order
 }
 
-/// Writes a module anew with its own functions in another order.
+/// Encoder that writes a module with its own functions in another order.
 struct Reordered {
     num_imported: u32,
-    /// New place → old one, of the module's own functions.
+    /// Old position by new position, of the module's own functions.
     order: Vec<usize>,
-    /// Old place → new index among all functions.
+    /// New index among all functions, by old position.
     place: Vec<u32>,
 }
 
@@ -194,7 +193,7 @@ mod tests {
 
     const NUM_FUNCTIONS: u32 = 8;
 
-    /// Functions of two kinds that alternate, each calling the next one, behind an imported one.
+    /// Functions of two alternating kinds, each calling the next one, after an imported one.
     fn two_kinds() -> Vec<u8> {
         let mut types = TypeSection::new();
         types.ty().function([], []);
@@ -253,9 +252,9 @@ mod tests {
 
     /// A module as seen by following its calls.
     struct Followed {
-        /// Types and last numbers of functions, from the export on.
+        /// Types and last constants of functions, starting at the export.
         met: Vec<(u32, i32)>,
-        /// Numbers of those in the table.
+        /// Constants of the functions in the table.
         table: Vec<Option<i32>>,
         /// Types in the order of the functions.
         kinds: Vec<u32>,

@@ -10,10 +10,9 @@ use anyhow::{Context, Result, ensure};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Makes the Lab in the folder of the site. Returns how many files it has.
+/// Builds the Lab in the folder of the site. Returns its number of files.
 ///
-/// # Errors
-/// A tool that is missing or fails, named with the remedy.
+/// # Errors A tool that is missing or fails, with the remedy.
 pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let tools = Tools::find(project)?;
     let page = wasm::build(&tools, "epipole-lab", "page")?;
@@ -51,10 +50,10 @@ pub fn make(project: &Path, site: &Path) -> Result<usize> {
     Ok(assets.files.len())
 }
 
-/// Results of the Lab's initial sample, precomputed so that no reader has to wait for them.
+/// Returns the results of the Lab's initial sample, precomputed so that readers need not wait.
 fn solved(tools: &Tools) -> Result<Vec<u8>> {
     let target = target_folder(&tools.project);
-    // The whole workspace is named, to reuse the core that this builder was compiled with.
+    // Builds with the whole workspace, to reuse the core that this builder was compiled with.
     let built = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
         .args(["build", "--quiet", "--locked", "--workspace"])
         .args(["--no-default-features", "--features"])

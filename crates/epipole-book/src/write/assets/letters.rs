@@ -1,18 +1,18 @@
-//! The letters that the fonts must have.
+//! Letters that the fonts must contain.
 
 use crate::render::page::Page;
 use std::collections::BTreeSet;
 
-/// The letters that the fonts must have.
+/// Letters that the fonts must contain.
 #[derive(Debug, Clone, Default)]
 pub struct Letters {
-    /// In formulas.
+    /// Letters in formulas.
     pub math: BTreeSet<char>,
-    /// In everything else.
+    /// Letters in all other text.
     pub text: BTreeSet<char>,
 }
 
-/// The letters of all pages.
+/// Collects the letters of all pages.
 pub fn used_letters(pages: &[Page]) -> Letters {
     let mut letters = Letters::default();
     // Characters of the theme, the scripts and the readers' own numbers.
@@ -30,7 +30,7 @@ pub fn used_letters(pages: &[Page]) -> Letters {
             letters.text.extend(rest[..start].chars());
             let formula = &rest[start..end];
             letters.math.extend(formula.chars());
-            // Browsers draw the root from the font's sign, which the formula does not contain.
+            // Browsers draw roots with the font's root sign, which the formula does not contain.
             if formula.contains("<msqrt") || formula.contains("<mroot") {
                 letters.math.insert('√');
             }
@@ -51,12 +51,12 @@ pub fn used_letters(pages: &[Page]) -> Letters {
     letters
 }
 
-/// The letter that a browser draws for a variable: a lone letter in `<mi>` is set in italics, and
-/// the italics of mathematics are letters of their own.
+/// Returns the letter that a browser draws for a variable: a single letter in `<mi>` is set in
+/// italics, which are separate letters in mathematics.
 fn math_italic(letter: char) -> Option<char> {
     let shifted = |first: char, to: u32| char::from_u32(to + letter as u32 - first as u32);
     match letter {
-        // U+1D455 was never assigned: its letter is Planck's constant.
+        // U+1D455 is unassigned, as its letter is Planck's constant.
         'h' => Some('\u{210E}'),
         'A'..='Z' => shifted('A', 0x1D434),
         'a'..='z' => shifted('a', 0x1D44E),

@@ -1,5 +1,5 @@
-//! `sw.js`: the service worker of a published book, with the list of files that it keeps. A book
-//! that is being written has a worker that removes the published one.
+//! `sw.js`: the service worker of a published book, with the list of files that it caches. A book
+//! under construction gets a worker that removes the published one.
 
 use super::bundle::bundle;
 use super::files::{Assets, add_hashed};
@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Place of the worker, which never changes: browsers look there for a new edition.
+/// Path of the worker. It never changes, as browsers check it for a new edition.
 const WORKER: &str = "sw.js";
 
 /// Extensions of the assets that every page needs.
@@ -24,7 +24,7 @@ type Files = BTreeMap<String, Vec<u8>>;
 #[derive(Debug, Serialize)]
 struct List<'a> {
     core: Vec<&'a str>,
-    /// Files of a group show the same in several widths and themes.
+    /// Groups of files by page; files of a group show the same in several widths and themes.
     pages: BTreeMap<&'a str, Vec<Vec<&'a str>>>,
     rest: Vec<&'a str>,
     integrity: BTreeMap<&'a str, String>,
@@ -49,7 +49,7 @@ impl<'a> List<'a> {
                 Some((*page, groups(html, &others)))
             })
             .collect();
-        // Other pictures of figures are for the frames of other sites.
+        // Other pictures of figures are for frames on other sites.
         let rest = others
             .iter()
             .filter(|path| !path.starts_with("assets/figures/"))
@@ -70,7 +70,8 @@ impl<'a> List<'a> {
     }
 }
 
-/// The files of a page that are not in another group: those of each `<picture>`, others alone.
+/// Groups the files of a page that are in no other group: those of each `<picture>`, and each other
+/// file alone.
 fn groups<'a>(html: &str, files: &[&'a str]) -> Vec<Vec<&'a str>> {
     let mut left: Vec<&str> = (files.iter().copied())
         .filter(|path| html.contains(path))
@@ -91,8 +92,7 @@ fn groups<'a>(html: &str, files: &[&'a str]) -> Vec<Vec<&'a str>> {
 
 /// Adds the worker for these pages, after all other files.
 ///
-/// # Errors
-/// esbuild is missing or fails.
+/// # Errors If esbuild is missing or fails.
 pub fn add_offline(project: &Path, live: bool, pages: &[&str], files: &mut Files) -> Result<()> {
     let tools = Tools::find(project)?;
     let source = match live {

@@ -1,4 +1,4 @@
-//! Files for the code that readers run: the npm package of the core, and the script of its worker.
+//! Files for code that readers run: the npm package of the core, and the script of its worker.
 
 use super::bundle::bundle;
 use super::files::Assets;
@@ -14,11 +14,11 @@ use std::process::Command;
 pub(super) struct Programs {
     /// Folder of the package.
     pub(super) package: String,
-    /// Script that the reader's code imports first.
+    /// Script imported before the reader's code.
     pub(super) sandbox: String,
 }
 
-/// Adds the package as others get it from npm, in a folder whose name carries a hash of all.
+/// Adds the package as published on npm, in a folder whose name contains a hash of its files.
 pub(super) fn add(
     tools: &Tools,
     modules: &Modules,
@@ -32,11 +32,11 @@ pub(super) fn add(
         "web/package-lock.json",
     ];
     let sources = sources.map(|source| tools.project.join(source));
-    // All modules are made together, this one last.
+    // All modules are built together, this one last.
     let module = modules.parts.join("epipole_js_all_bg.wasm");
     let changed = sources.iter().chain([&module]).map(|path| newest(path));
     let changed = changed.collect::<Result<Vec<_>>>()?.into_iter().max();
-    // The scripts of the package are made last.
+    // The scripts of the package are written last.
     if newest(&out.join("index.js")).ok() < changed {
         let mut command = Command::new("node");
         command
@@ -65,7 +65,7 @@ pub(super) fn add(
     })
 }
 
-/// Scripts, modules and declarations of a folder of the package, with their paths in it.
+/// Collects scripts, modules and declarations of a folder of the package, with their paths in it.
 fn collect(package: &Path, folder: &str, files: &mut Vec<(String, Vec<u8>)>) -> Result<()> {
     for entry in std::fs::read_dir(package.join(folder))? {
         let path = entry?.path();

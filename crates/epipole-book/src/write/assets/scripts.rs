@@ -9,13 +9,13 @@ use crate::tools::Tools;
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
-/// Prefix of fonts in the style sheet, before they have their hashed names.
+/// Prefix of fonts in the style sheet, before their hashed names are known.
 const FONT: &str = "stix-two:";
 
 /// Name of the figures' style sheet in scripts.
 const LOOK: &str = "epipole-look";
 
-/// The style sheet and the scripts that every page uses. `look` is the figures' style sheet.
+/// Adds the style sheet and the scripts of every page. `look` is the figures' style sheet.
 pub(super) fn add_pages(
     tools: &Tools,
     look: &Path,
@@ -23,7 +23,7 @@ pub(super) fn add_pages(
     fast: bool,
     assets: &mut Assets,
 ) -> Result<()> {
-    // The style sheet names fonts as `url("stix-two:math")`; esbuild must leave them alone.
+    // The style sheet refers to fonts as `url("stix-two:math")`, which esbuild must not change.
     let mut css = bundle(
         tools,
         "web/theme/book.css",
@@ -62,7 +62,7 @@ pub(super) fn add_pages(
     Ok(())
 }
 
-/// Script and style sheet of the slides, in the folder of these: no page needs them.
+/// Adds script and style sheet of the slides, in their folder, as no page needs them.
 pub(super) fn add_deck(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<()> {
     let mut made = Assets::default();
     let mut add = |entry: &str| -> Result<String> {
@@ -81,10 +81,10 @@ fn in_slides(path: &str) -> String {
     path.replacen("assets/", "slides/", 1)
 }
 
-/// The custom elements: `web/src/worker.ts` first, as the elements name it, then
-/// `web/src/index.ts`. The sources find the other files beside their own through the constants
-/// `EPIPOLE_WASM`, `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, the generated bindings as the modules
-/// `epipole-web` and `epipole-jobs`, and the file `look` as `epipole-look`.
+/// Adds the custom elements: `web/src/worker.ts` first, as the elements refer to it, then
+/// `web/src/index.ts`. The sources locate the other files by the constants `EPIPOLE_WASM`,
+/// `EPIPOLE_JOBS_WASM` and `EPIPOLE_WORKER`, and import the generated bindings as `epipole-web` and
+/// `epipole-jobs`, and the file `look` as `epipole-look`.
 pub(super) fn add_elements(
     tools: &Tools,
     modules: &Modules,
@@ -132,7 +132,7 @@ pub(super) fn add_elements(
     Ok(())
 }
 
-/// The page of the Lab and its workers: style sheet and script.
+/// Adds style sheet and script of the Lab's page, and its workers.
 pub(super) fn add_lab(
     tools: &Tools,
     [page, vision, files]: [&Module; 3],
@@ -167,8 +167,8 @@ pub(super) fn add_lab(
     Ok((css, script))
 }
 
-/// The style sheet of the figures: scripts carry it, and a shadow root names it while none has run.
-/// Returns the bundled file.
+/// Bundles the style sheet of the figures: scripts contain it, and a shadow root refers to it until
+/// one has run. Returns the bundled file.
 pub(super) fn add_look(tools: &Tools, fast: bool, assets: &mut Assets) -> Result<PathBuf> {
     let made = bundle(tools, "web/src/figure.css", &[], fast, assets)?;
     let path = made.get("figure").context("esbuild made no figure.css")?;
@@ -177,7 +177,7 @@ pub(super) fn add_look(tools: &Tools, fast: bool, assets: &mut Assets) -> Result
     Ok(tools.work.join("bundle/figure").join(name))
 }
 
-/// A constant of scripts: a path relative to their folder.
+/// Defines a constant of scripts: a path relative to their folder.
 fn define(name: &str, path: &str) -> String {
     format!("--define:{name}={:?}", path.trim_start_matches("assets/"))
 }

@@ -1,8 +1,7 @@
-//! The figures as WebAssembly: cargo and wasm-bindgen (as a library).
+//! The figures as WebAssembly, built by cargo and wasm-bindgen (as a library).
 //!
-//! Two modules of the same crate: the figures, which every page with a figure loads, and their long
-//! computations, which a worker loads when a figure asks for one. The npm package of the core has
-//! one module per part.
+//! Two modules of the same crate: the figures, loaded by every page with a figure, and their long
+//! computations, loaded by a worker on demand. The npm package of the core has one module per part.
 
 use super::function_order;
 use crate::tools::{Tools, newest, read, target_folder};
@@ -13,7 +12,7 @@ use wasm_bindgen_cli_support::Bindgen;
 
 /// A module and the script that loads it.
 pub(crate) struct Module {
-    /// The module as readers download it.
+    /// The module as downloaded.
     pub(super) wasm: Vec<u8>,
     /// The generated script.
     pub(super) glue: PathBuf,
@@ -31,10 +30,10 @@ pub(crate) struct Modules {
 
 /// Features of `epipole-web`: the figures for the page, and their computations for its worker.
 const FIGURES: [&str; 2] = ["figures", "jobs"];
-/// Features of `epipole-js`: the parts of the npm package of the core, a module each.
+/// Features of `epipole-js`: the parts of the npm package of the core, one module each.
 const PARTS: [&str; 4] = ["homography", "geometry", "images", "all"];
 
-/// Everything that every module is made from, below the project.
+/// Sources of all modules, below the project.
 const SOURCES: [&str; 5] = [
     ".cargo",
     "Cargo.lock",
@@ -42,20 +41,20 @@ const SOURCES: [&str; 5] = [
     "crates/epipole",
     "crates/epipole-book/src/write/assets",
 ];
-/// Crates of the figures' modules besides.
+/// Further crates of the figures' modules.
 const OF_FIGURES: [&str; 4] = [
     "crates/epipole-canvas",
     "crates/epipole-scenes",
     "crates/epipole-web",
     "crates/epipole-widgets",
 ];
-/// Crates of the package's modules besides.
+/// Further crates of the package's modules.
 const OF_PARTS: [&str; 2] = ["crates/epipole-js", "crates/epipole-schema"];
 
 /// Builds the modules of the book.
 pub(super) fn make(tools: &Tools) -> Result<Modules> {
     let [page, worker] = FIGURES;
-    // The page's profile has a folder of its own: cargo builds in both at once.
+    // The page's profile has a separate target folder, so cargo builds both concurrently.
     let (figures, parts) = std::thread::scope(|scope| {
         let figures = scope.spawn(|| make_all(tools, "epipole-web", &[page], &OF_FIGURES));
         let parts = make_all(tools, "epipole-web", &[worker], &OF_FIGURES)
@@ -72,16 +71,15 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
 
 /// Builds the modules of the npm package of the core. Returns their folder.
 ///
-/// # Errors
-/// A tool that is missing or fails, named with the remedy.
+/// # Errors A tool that is missing or fails, with the remedy.
 pub fn make_parts(project: &Path) -> Result<PathBuf> {
     let tools = Tools::find(project)?;
     make_all(&tools, "epipole-js", &PARTS, &OF_PARTS)?;
     Ok(bindings(&tools))
 }
 
-/// Builds the modules of a package, unless all are newer than their sources: cargo takes seconds to
-/// find that out, and links a module anew after another one of the same package.
+/// Builds the modules of a package, unless all are newer than their sources: cargo needs seconds
+/// for that check, and links a module again after another one of the same package.
 fn make_all(tools: &Tools, package: &str, features: &[&str], crates: &[&str]) -> Result<()> {
     let made = features
         .iter()
@@ -100,13 +98,13 @@ fn make_all(tools: &Tools, package: &str, features: &[&str], crates: &[&str]) ->
     Ok(())
 }
 
-/// Path of a finished module.
+/// Returns the path of a finished module.
 fn path(tools: &Tools, package: &str, feature: &str) -> PathBuf {
     let name = name(package, feature);
     bindings(tools).join(format!("{name}_bg.wasm"))
 }
 
-/// Name of a module and its script.
+/// Returns the name of a module and its script.
 fn name(package: &str, feature: &str) -> String {
     match package {
         "epipole-web" => format!("epipole_{feature}"),
@@ -123,16 +121,16 @@ fn load(tools: &Tools, package: &str, feature: &str) -> Result<Module> {
     })
 }
 
-/// Folder of the finished modules and their scripts.
+/// Returns the folder of the finished modules and their scripts.
 fn bindings(tools: &Tools) -> PathBuf {
     tools.work.join("bindgen")
 }
 
-/// Compiler flags for every crate, as a setting of cargo. Cargo joins them to those of
+/// Returns compiler flags for every crate, as a setting of cargo. Cargo joins them to those of
 /// `.cargo/config.toml`.
 ///
-/// They keep the paths of this machine out of the modules, where panics name their source file: the
-/// same source gives the same bytes on every machine.
+/// They remove the paths of this machine from the modules, which panics would otherwise contain, so
+/// that the same source gives the same bytes on every machine.
 fn for_every_crate(project: &Path, more: &[&str]) -> String {
     let home = std::env::var_os("CARGO_HOME")
         .map(PathBuf::from)
@@ -151,7 +149,7 @@ fn for_every_crate(project: &Path, more: &[&str]) -> String {
     )
 }
 
-/// The cargo profile of a module: small for the page's drawing code, fast for the worker's
+/// Returns the cargo profile of a module: small for the page's drawing code, fast for the worker's
 /// computations.
 fn profile(package: &str, feature: &str) -> &'static str {
     match package == "epipole-js" || feature == "jobs" || feature.ends_with("-worker") {
@@ -163,21 +161,21 @@ fn profile(package: &str, feature: &str) -> &'static str {
 /// Compilation settings of a module beyond its profile.
 #[derive(Default)]
 struct Way {
-    /// Arguments of `cargo rustc`.
+    /// Arguments for `cargo rustc`.
     of_cargo: &'static [&'static str],
-    /// Arguments of the compiler for every crate.
+    /// Compiler arguments for every crate.
     of_every_crate: &'static [&'static str],
-    /// Its arguments where the module is linked.
+    /// Compiler arguments for the crate that is linked.
     of_linking: &'static [&'static str],
 }
 
-/// Compilation settings for the module of a feature.
+/// Returns the compilation settings for the module of a feature.
 ///
 /// Cargo skips link-time optimization for a library that is both an rlib and a cdylib, so the
-/// figures and their computations are built as a cdylib alone. Link-time optimization then inlines
+/// figures and their computations are built as a cdylib only. Link-time optimization then inlines
 /// nalgebra's small functions, compiled for size, into the loops that call them. Computations are
-/// compiled for speed. Limits on inlining and unrolling save size at hardly any cost in speed; they
-/// are set in every crate, since most of both happens before linking.
+/// compiled for speed. Limits on inlining and unrolling reduce the size at hardly any cost in
+/// speed; they are set in every crate, since most of both happens before linking.
 fn way(package: &str, feature: &str) -> Way {
     const AS_ONE: &[&str] = &["--crate-type", "cdylib"];
     match (package, feature) {
