@@ -1,8 +1,8 @@
-//! Drawing: every mark that a figure can make. The only module that uses tiny-skia.
+//! Drawing of all marks of figures. The only module that uses tiny-skia.
 //!
 //! Positions and sizes are in CSS pixels, converted by the canvas to device pixels. Lines are
-//! clipped arithmetically, and a marker is drawn whole or not at all, so that no costly pixel masks
-//! are needed.
+//! clipped analytically, and a marker is drawn whole or not at all, which avoids costly pixel
+//! masks.
 
 mod clip;
 mod coverage;
@@ -35,7 +35,7 @@ use place::At;
 use scaled::Scaled;
 use tiny_skia::{Color, Pixmap};
 
-/// The picture cannot be drawn at this size.
+/// Error for a size at which no picture can be drawn.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("a picture of {width} by {height} pixels cannot be drawn; both sides must be 1 to 8192")]
 pub struct BadSize {
@@ -56,14 +56,13 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// The largest side of a picture, device pixels.
+    /// Maximum side of a picture, device pixels.
     pub const MAX_SIDE: f64 = 8192.0;
 
-    /// An empty picture of `width × height` CSS pixels with `scale` device pixels each, filled
-    /// with the background. `buffer` is reused if it fits.
+    /// Creates an empty picture of `width × height` CSS pixels with `scale` device pixels each,
+    /// filled with the background. `buffer` is reused if it fits.
     ///
-    /// # Errors
-    /// [`BadSize`] if a side has no pixels, too many, or is not finite.
+    /// # Errors [`BadSize`] if a side has no pixels, too many, or is not finite.
     pub fn new(
         width: f64,
         height: f64,
@@ -100,7 +99,7 @@ impl Canvas {
         })
     }
 
-    /// The finished picture.
+    /// Returns the finished picture.
     pub fn finish(self) -> Picture {
         Picture {
             pixmap: Some(self.pixmap),
@@ -109,7 +108,7 @@ impl Canvas {
         }
     }
 
-    /// The reader's colors.
+    /// Returns the reader's theme.
     pub fn theme(&self) -> Theme {
         self.theme
     }
@@ -127,18 +126,18 @@ impl Canvas {
         self.clip = outer;
     }
 
-    /// Fills a rectangle, its sides rounded to device pixels.
+    /// Fills a rectangle, with its sides rounded to device pixels.
     pub fn fill_rect(&mut self, rect: Rect, role: Role, opacity: f64) {
         self.fill(rect, self.theme.color(role), opacity);
     }
 
-    /// A filled rectangle in a color of a scale or of the world.
+    /// Fills a rectangle with a color of a scale or of the world.
     pub fn fill_color(&mut self, rect: Rect, color: Rgb) {
         self.fill(rect, color, 1.0);
     }
 
     fn fill(&mut self, rect: Rect, color: Rgb, opacity: f64) {
-        // Whole pixels need no coverage, so a large rectangle costs little.
+        // Whole pixels need no coverage, which makes a large rectangle cheap.
         let device = |low: f64, high: f64, clip: (f64, f64), most: u32| {
             let is_number = !low.is_nan() && !high.is_nan();
             let (low, high) = (low.max(clip.0), high.min(clip.1));
@@ -180,24 +179,24 @@ impl Canvas {
             }
             for (byte, &added) in bytes.iter_mut().zip(&added) {
                 let sum = added + u16::from(*byte) * (255 - alpha);
-                // The nearest whole number to sum / 255.
+                // The nearest integer to sum / 255.
                 *byte = ((sum + (sum >> 8)) >> 8) as u8;
             }
         }
     }
 
-    /// A panel: surface and border.
+    /// Draws a panel: surface and border.
     pub fn panel(&mut self, rect: Rect) {
         self.fill_rect(rect, Role::Surface, 1.0);
         self.stroke_rect(rect, Stroke::solid(Role::Edge, 1.0));
     }
 
-    /// A filled polygon, convex or not, cut at the clip rectangle.
+    /// Fills a polygon, convex or not, clipped to the clip rectangle.
     pub fn polygon(&mut self, places: &[Place], role: Role, opacity: f64) {
         self.fill_polygon(places, self.theme.color(role), opacity);
     }
 
-    /// A filled polygon in a color of a scale or of the world.
+    /// Fills a polygon with a color of a scale or of the world.
     pub fn polygon_color(&mut self, places: &[Place], color: Rgb) {
         self.fill_polygon(places, color, 1.0);
     }
@@ -209,7 +208,7 @@ impl Canvas {
         self.coverage.blend(self.pixmap.data_mut(), color, opacity);
     }
 
-    /// A filled disk, drawn whole if its center is inside the clip rectangle.
+    /// Fills a disk, drawn whole if its center is inside the clip rectangle.
     pub fn disk(&mut self, center: Place, radius: f64, role: Role, opacity: f64) {
         if self.clip.contains(center) {
             let (at, radius) = (self.device(center), (radius * self.scale) as f32);

@@ -6,8 +6,7 @@ use ttf_parser::{GlyphId, OutlineBuilder, RawFace, Tag, cmap, glyf, head, hhea, 
 /// Height of a capital letter of size 1.
 pub(crate) const CAP_HEIGHT: f64 = 0.698;
 
-/// The tables needed here. `ttf_parser::Face` would add those of every other kind of font to the
-/// module.
+/// The font tables needed here. `ttf_parser::Face` would add all others to the module.
 struct Font {
     units_per_em: u16,
     letters: cmap::Subtable<'static>,
@@ -46,7 +45,7 @@ fn font() -> &'static Font {
     FONT.get_or_init(|| Font::parse().expect("the embedded font is valid; a test reads it"))
 }
 
-/// Returns the glyph of a character, a question mark if the font lacks it.
+/// Returns the glyph of a character, or a question mark if the font lacks it.
 fn glyph(character: char) -> GlyphId {
     let font = font();
     font.glyph_index(character)
@@ -54,13 +53,13 @@ fn glyph(character: char) -> GlyphId {
         .unwrap_or(GlyphId(0))
 }
 
-/// Width of one character of size 1.
+/// Returns the width of one character of size 1.
 fn advance(character: char) -> f64 {
     let units = font().advances.advance(glyph(character)).unwrap_or(0);
     f64::from(units) / f64::from(font().units_per_em)
 }
 
-/// Width of a line of text of size 1.
+/// Returns the width of a line of text of size 1.
 pub(crate) fn width(text: &str) -> f64 {
     text.chars().map(advance).sum()
 }
@@ -119,7 +118,7 @@ impl OutlineBuilder for Placed<'_> {
         self.pen.quad_to(x1, y1, x, y);
     }
 
-    /// TrueType outlines have no cubic curves.
+    /// Never called, as TrueType outlines have no cubic curves.
     fn curve_to(&mut self, _x1: f32, _y1: f32, _x2: f32, _y2: f32, x: f32, y: f32) {
         self.line_to(x, y);
     }

@@ -1,8 +1,8 @@
-//! Software renderer of the figures of Epipole.
+//! Software renderer of Epipole's figures.
 //!
-//! [`canvas`] has every mark that a figure can make, [`theme`] its colors, [`cloud`] points and
-//! cameras in space. The crate knows nothing of figures. Equal calls give identical bits on every
-//! machine.
+//! [`canvas`] draws all marks of figures, [`theme`] defines their colors, [`cloud`] draws points
+//! and cameras in 3D. The crate does not depend on the figures. Equal calls give identical bits on
+//! every machine.
 //!
 //! ```
 //! # fn main() -> Result<(), epipole_canvas::canvas::BadSize> {

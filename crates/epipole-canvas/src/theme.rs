@@ -1,7 +1,7 @@
-//! Color roles: a view gives the meaning of a mark, and the theme its color.
+//! Color roles: a view specifies the meaning of a mark, and the theme its color.
 //!
 //! Hues follow Okabe & Ito 2008 ("Color universal design"), darkened on light pages and lightened
-//! on dark ones until marks have a contrast of at least 3:1 and text 4.5:1 with the surface.
+//! on dark ones until the contrast with the surface is at least 3:1 for marks and 4.5:1 for text.
 //! Color is never the only channel: views also vary shape, dash or label.
 
 use std::str::FromStr;
@@ -9,11 +9,11 @@ use std::str::FromStr;
 /// Meaning of a mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The page behind the panels.
+    /// Page behind the panels.
     Background,
-    /// A panel.
+    /// Panel.
     Surface,
-    /// The border of a panel.
+    /// Border of a panel.
     Edge,
     /// Grid lines and ticks.
     Grid,
@@ -21,30 +21,30 @@ pub enum Role {
     Ink,
     /// Secondary text.
     Muted,
-    /// The casing around marks that lie on a photograph.
+    /// Casing around marks on a photograph.
     Halo,
-    /// A fit that is only being tried.
+    /// Hypothesis being evaluated.
     Candidate,
-    /// The best so far, or the one that counts.
+    /// Best or current model.
     Best,
-    /// Data that agree.
+    /// Inliers.
     Inlier,
-    /// Data that disagree.
+    /// Outliers.
     Outlier,
     /// Ground truth.
     Truth,
-    /// Something to compare with.
+    /// Reference for comparison.
     Reference,
-    /// A handle that the reader drags.
+    /// Handle that the reader can drag.
     Grip,
-    /// One of several equal things, distinguished by hue and shape.
+    /// One of several items of the same kind, distinguished by hue and shape.
     Series(u8),
 }
 
-/// A color, red, green, blue.
+/// Color: red, green, blue.
 pub type Rgb = [u8; 3];
 
-/// The reader's choice of colors.
+/// Color theme.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Theme {
     /// Dark on light.
@@ -57,14 +57,14 @@ pub enum Theme {
 }
 
 impl Theme {
-    /// Every theme with its permanent name.
+    /// All themes with their permanent names.
     pub const ALL: [(Self, &'static str); 3] = [
         (Self::Light, "light"),
         (Self::Dark, "dark"),
         (Self::HighContrast, "high-contrast"),
     ];
 
-    /// The color of a role.
+    /// Returns the color of a role.
     pub fn color(self, role: Role) -> Rgb {
         let [light, dark, contrast] = match role {
             Role::Background => [0xffffff, 0x16181c, 0x000000],
@@ -99,7 +99,7 @@ impl Theme {
     }
 }
 
-/// Dark blue to yellow, with even steps of brightness, also for readers with red-green color
+/// Color map from dark blue to yellow, with even steps of brightness, suitable for red-green color
 /// blindness.
 ///
 /// Source: the map "viridis" by van der Walt & Smith 2015, at nine positions.

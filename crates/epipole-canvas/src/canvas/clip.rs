@@ -1,9 +1,9 @@
-//! Lines and areas cut at the sides of a rectangle.
+//! Clipping of lines and polygons to a rectangle.
 
 use super::place::Place;
 use crate::Rect;
 
-/// The part of a segment inside a rectangle.
+/// Returns the part of a segment inside a rectangle.
 ///
 /// Source: Liang & Barsky 1984, "A new concept and method for line clipping".
 pub(super) fn clip_segment(from: Place, to: Place, clip: Rect) -> Option<(Place, Place)> {
@@ -34,7 +34,7 @@ pub(super) fn clip_segment(from: Place, to: Place, clip: Rect) -> Option<(Place,
     (enter <= leave).then_some((start, end))
 }
 
-/// The part of a polygon inside a rectangle.
+/// Returns the part of a polygon inside a rectangle.
 ///
 /// Source: Sutherland & Hodgman 1974, "Reentrant polygon clipping".
 pub(super) fn clip_polygon(places: &[Place], clip: Rect) -> Vec<Place> {

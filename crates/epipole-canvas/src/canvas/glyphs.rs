@@ -31,7 +31,7 @@ struct Key {
     step: u8,
 }
 
-/// Draws text; everything in device pixels.
+/// Draws text. All arguments are in device pixels.
 ///
 /// * `left`, `baseline`: start of the text; the baseline is rounded to a row of pixels
 /// * `casing`: width of the casing to draw instead of the text; 0 for the text
@@ -112,7 +112,7 @@ fn cover(mut contours: Vec<Vec<At>>, casing: f32) -> Stamp {
     }
 }
 
-/// Outlines as closed contours of straight pieces.
+/// Outlines as closed polygons.
 #[derive(Default)]
 struct Contours(Vec<Vec<At>>);
 
@@ -137,7 +137,7 @@ impl Pen for Contours {
         let Some(&(x0, y0)) = self.0.last().and_then(|contour| contour.last()) else {
             return;
         };
-        // A piece of n leaves the curve by a quarter of its second difference over n².
+        // The error of a piece, one of n, is a quarter of the curve's second difference over n².
         let bend = ((x0 - 2.0 * x1 + x).abs()).max((y0 - 2.0 * y1 + y).abs());
         let num_pieces = (0.25 * bend / FLATNESS).sqrt().ceil().clamp(1.0, 64.0);
         for piece in 1..=num_pieces as u32 {
@@ -155,7 +155,7 @@ impl Pen for Contours {
 mod tests {
     use super::*;
 
-    /// Pixels of the reference to a pixel of ours, along each side.
+    /// Scale of the reference along each side.
     const FINER: u32 = 8;
 
     fn drawn(text: &str, place: (f64, f64), casing: f64) -> Vec<u8> {
@@ -256,7 +256,7 @@ mod tests {
             let inked = expected.iter().filter(|&&alpha| alpha > 0).count() as f64;
             let mean = off.iter().sum::<f64>() / inked;
             let most = off.iter().copied().fold(0.0, f64::max);
-            // A casing is covered by distance, which covers a little less where its pieces meet.
+            // Casings are covered by distance, which gives slightly less at the joints of pieces.
             let limit = if casing > 0.0 { 64.0 } else { 24.0 };
             assert!(
                 mean < 4.0 && most < limit,

@@ -1,4 +1,4 @@
-//! Lines from place to place: straight, dashed, around polygons and circles.
+//! Lines between points: straight, dashed, around polygons and circles.
 
 use super::clip::clip_segment;
 use super::coverage::Coverage;
@@ -11,12 +11,12 @@ use crate::theme::Role;
 const CASING: f64 = 2.5;
 
 impl Canvas {
-    /// A straight line between two places.
+    /// Draws a straight line between two points.
     pub fn line(&mut self, from: Place, to: Place, stroke: Stroke) {
         self.polyline(&[from, to], stroke);
     }
 
-    /// Straight lines from place to place.
+    /// Draws straight lines from point to point.
     pub fn polyline(&mut self, places: &[Place], stroke: Stroke) {
         if stroke.cased {
             self.stroke_plain(places, Role::Halo, stroke.width + CASING, Dash::Solid);
@@ -24,14 +24,14 @@ impl Canvas {
         self.stroke_plain(places, stroke.role, stroke.width, stroke.dash);
     }
 
-    /// The outline of a polygon.
+    /// Draws the outline of a polygon.
     pub fn polygon_outline(&mut self, places: &[Place], stroke: Stroke) {
         let mut closed = places.to_vec();
         closed.extend(places.first());
         self.polyline(&closed, stroke);
     }
 
-    /// A rectangle's border, inside it.
+    /// Draws a rectangle's border, inside it.
     pub fn stroke_rect(&mut self, rect: Rect, stroke: Stroke) {
         let r = rect.inset(stroke.width / 2.0);
         let corners = [
@@ -43,7 +43,7 @@ impl Canvas {
         self.polygon_outline(&corners, stroke);
     }
 
-    /// A circle's outline, drawn whole if its center is inside the clip rectangle; never dashed.
+    /// Draws a circle, whole if its center is inside the clip rectangle; never dashed.
     pub fn circle(&mut self, center: Place, radius: f64, stroke: Stroke) {
         if !self.clip.contains(center) {
             return;
@@ -90,7 +90,7 @@ impl Canvas {
     }
 }
 
-/// Length of a dash and of the gap after it, CSS pixels.
+/// Returns the length of a dash and of the gap after it, CSS pixels.
 fn pattern(dash: Dash, width: f64) -> Option<(f64, f64)> {
     match dash {
         Dash::Solid => None,

@@ -11,7 +11,7 @@ use super::{Canvas, Place, Shape};
 use crate::theme::{Rgb, Role};
 use std::cell::RefCell;
 
-/// Radius from which a marker is not cached, device pixels.
+/// Radius from which markers are not cached, device pixels.
 const LARGE: f32 = 64.0;
 
 thread_local! {
@@ -39,7 +39,7 @@ const RIM: f64 = 0.7;
 /// Size step of cached dots, device pixels, since a cloud has as many sizes as depths.
 const DOT_STEP: f64 = 0.125;
 
-/// Draws a shape, or its outline if `width` is not 0; everything in CSS pixels.
+/// Draws a shape, or its outline if `width` is not 0. All arguments are in CSS pixels.
 pub(super) fn draw(
     canvas: &mut Canvas,
     (x, y): Place,
@@ -75,7 +75,7 @@ pub(super) fn draw(
     });
 }
 
-/// Draws a disk with a rim of the theme; everything in CSS pixels.
+/// Draws a disk with a rim of the theme. All arguments are in CSS pixels.
 pub(super) fn draw_dot(canvas: &mut Canvas, (x, y): Place, radius: f64, color: Rgb) {
     let scale = canvas.scale;
     let ((x, step_x), (y, step_y)) = (pixel_and_step(x * scale), pixel_and_step(y * scale));
@@ -123,7 +123,7 @@ fn stamp(key: Key, radius: f32, width: f32, opacity: u16) -> Stamp {
     Stamp::trimmed((-margin, -margin), stride, &alpha)
 }
 
-/// Covers a shape, or its outline if `width` is not 0; everything in device pixels.
+/// Covers a shape, or its outline if `width` is not 0. All arguments are in device pixels.
 fn add(coverage: &mut Coverage, center: At, radius: f32, shape: Shape, width: f32) {
     let corners = corners(center, radius, shape);
     match (shape, corners.as_slice()) {

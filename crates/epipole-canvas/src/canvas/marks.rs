@@ -1,10 +1,10 @@
-//! Marks of one place: arrows, markers, grips and the dots of clouds.
+//! Marks at one point: arrows, markers, grips and the dots of clouds.
 
 use super::{Canvas, Place, Shape, Stroke, markers};
 use crate::theme::{Rgb, Role};
 
 impl Canvas {
-    /// A line with an arrowhead at its end.
+    /// Draws a line with an arrowhead at its end.
     pub fn arrow(&mut self, from: Place, to: Place, stroke: Stroke) {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = libm::hypot(dx, dy);
@@ -27,12 +27,12 @@ impl Canvas {
         self.polygon(&tip, stroke.role, 1.0);
     }
 
-    /// A marker, drawn whole if its center is inside the clip rectangle; `radius` is half its size.
+    /// Draws a marker, whole if its center is inside the clip rectangle; `radius` is half its size.
     pub fn marker(&mut self, center: Place, radius: f64, shape: Shape, role: Role, cased: bool) {
         self.mark(center, radius, shape, role, cased, true);
     }
 
-    /// Draws the outline of a marker, for something not yet there.
+    /// Draws the outline of a marker, for a point that does not exist yet.
     pub fn hollow_marker(
         &mut self,
         center: Place,
@@ -68,7 +68,7 @@ impl Canvas {
         markers::draw(self, center, radius, shape, width, role);
     }
 
-    /// The mark of something that can be dragged: a disk in a ring.
+    /// Draws the mark of a draggable point: a disk in a ring.
     pub fn grip(&mut self, center: Place, role: Role) {
         if self.clip.contains(center) {
             self.disk(center, 8.5, Role::Halo, 0.9);

@@ -1,4 +1,4 @@
-//! Photographs, scaled to their place in the picture.
+//! Photographs, scaled to their rectangle in the picture.
 
 use super::Canvas;
 use super::scaled::Target;
@@ -7,7 +7,7 @@ use image::RgbImage;
 use std::ops::Range;
 
 impl Canvas {
-    /// A photograph, scaled to fill `rect`.
+    /// Draws a photograph, scaled to fill `rect`.
     ///
     /// Interpolation is bilinear in fixed-point arithmetic: fast, and identical on all platforms.
     pub fn photograph(&mut self, rect: Rect, photograph: &RgbImage) {
@@ -62,8 +62,8 @@ fn scale(
             pixel.copy_from_slice(&[0, 16, 32, 48].map(|bits| (mixed >> bits) as u16));
         }
     };
-    // Stretch two neighboring rows of the photograph to the target's width, keep them while needed,
-    // and blend them, so that the inner loop accesses memory in order.
+    // Stretches two neighboring rows of the photograph to the target's width, keeps them while
+    // needed, and blends them, so that the inner loop accesses memory in order.
     let length = columns.taps.len() * 4;
     let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0u16; length]));
     for (y, tap) in rows.taps.iter().enumerate() {

@@ -4,11 +4,11 @@ use super::coverage::Coverage;
 use super::scaled::Scaled;
 use tiny_skia::Pixmap;
 
-/// A finished picture: opaque RGBA, 8 bits a channel, rows from top to bottom. Empty by default.
+/// A finished picture: opaque RGBA, 8 bits per channel, rows from top to bottom. Empty by default.
 #[derive(Default)]
 pub struct Picture {
     pub(super) pixmap: Option<Pixmap>,
-    /// Memory for the next drawing.
+    /// Memory reused by the next drawing.
     pub(super) coverage: Coverage,
     pub(super) scaled: Scaled,
 }
@@ -30,7 +30,7 @@ impl Picture {
         self.pixmap.as_ref().map_or(&[], Pixmap::data)
     }
 
-    /// FNV-1a hash of size and pixels, to compare pictures across platforms.
+    /// Returns the FNV-1a hash of size and pixels, to compare pictures across platforms.
     pub fn hash(&self) -> u64 {
         let sizes = [self.width(), self.height()].map(u32::to_le_bytes);
         sizes

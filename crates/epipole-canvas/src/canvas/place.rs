@@ -1,7 +1,7 @@
-//! Places on the picture.
+//! Positions on the picture.
 
-/// A place on the picture, CSS pixels.
+/// A position on the picture, CSS pixels.
 pub type Place = (f64, f64);
 
-/// A place, device pixels.
+/// A position, device pixels.
 pub(super) type At = (f32, f32);

@@ -9,17 +9,17 @@ use std::ops::Range;
 const AT_ONCE: usize = 16;
 
 impl Coverage {
-    /// Adds the area that a polygon winds around.
+    /// Adds the interior of a polygon, by its winding number.
     pub(super) fn add_polygon(&mut self, corners: &[At]) {
         self.add_contours(&[corners]);
     }
 
-    /// Adds the area that closed contours wind around; a contour of opposite orientation cuts a
-    /// hole. Clipped to the picture.
+    /// Adds the interior of closed contours by their winding number; a contour of opposite
+    /// orientation cuts a hole. Clipped to the picture.
     ///
-    /// Source: the signed-area accumulation of font rasterizers, e.g. R. Levien's `font-rs` (2016):
-    /// each edge adds to each pixel what it changes of the area to its right, and a running sum
-    /// along the row is the coverage.
+    /// Source: signed-area accumulation of font rasterizers, e.g. R. Levien's `font-rs` (2016).
+    /// Each edge adds the change of the area to its right to each pixel, and a running sum along
+    /// the row gives the coverage.
     pub(super) fn add_contours(&mut self, contours: &[&[At]]) {
         let corners = || contours.iter().copied().flatten();
         let (mut low, mut high) = ((f32::INFINITY, f32::INFINITY), (0.0_f32, 0.0_f32));
@@ -48,7 +48,7 @@ impl Coverage {
         }
         for row in low.1 as usize..bottom {
             let (above, below) = (row as f32, row as f32 + 1.0);
-            // Range of columns in which the area changes within this row.
+            // Columns in which the area changes within this row.
             let (mut start, mut end) = (usize::MAX, 0);
             for edge in &edges {
                 let (y0, y1) = (greater(edge.upper.1, above), lesser(edge.lower.1, below));
@@ -70,7 +70,7 @@ impl Coverage {
             let (mut area, mut covered) = (0.0_f32, 0);
             let part = self.part(row, columns);
             for (alphas, changes) in part.chunks_mut(AT_ONCE).zip(changes.chunks(AT_ONCE)) {
-                // Nothing changes inside and outside, where most pixels are.
+                // Nothing changes inside and outside, which is true of most pixels.
                 let any = changes.iter().fold(0, |any, change| any | change.to_bits());
                 if any == 0 {
                     alphas.fill(covered);
@@ -95,13 +95,13 @@ fn accumulate(sums: &mut [f32], x0: f32, x1: f32, rise: f32) -> Range<usize> {
     let first = low as usize;
     let last = high as usize;
     if first == last {
-        // Within one pixel: its part right of the edge, and all of the next.
+        // Within one pixel: the part of it right of the edge, and all of the next.
         let right = 1.0 - (0.5 * (low + high) - first as f32);
         sums[first] += rise * right;
         sums[first + 1] += rise * (1.0 - right);
         return first..first + 2;
     }
-    // Over several: each has the rise of its own piece of the edge.
+    // Across several pixels: each gets the rise of its own piece of the edge.
     let per_pixel = rise / (high - low);
     for pixel in first..=last {
         let left = greater(low, pixel as f32);

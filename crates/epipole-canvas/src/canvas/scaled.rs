@@ -1,13 +1,13 @@
-//! Cache of scaled photographs: most frames show the same ones in the same places, and a copy takes
-//! a fraction of the time.
+//! Cache of scaled photographs: most frames show the same ones at the same positions, and copying
+//! takes a fraction of the time.
 
 use image::RgbImage;
 use std::ops::Range;
 
-/// Device pixels that a photograph takes.
+/// Device pixels covered by a photograph.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
-    /// Left, top, right and bottom as asked for, perhaps beyond the picture.
+    /// Requested left, top, right and bottom, possibly beyond the picture.
     pub(super) asked: [i64; 4],
     /// Columns of the picture within these sides.
     pub(super) columns: Range<usize>,
@@ -25,13 +25,13 @@ struct Key {
 
 struct CachedImage {
     key: Key,
-    /// RGBA bytes of the target; empty until a second frame, since a photograph that changes in
+    /// RGBA bytes of the target; empty until the second frame, since a photograph that changes in
     /// every frame is not worth caching.
     pixels: Vec<u8>,
     is_shown: bool,
 }
 
-/// The photographs of the last frame.
+/// Photographs of the last frame.
 #[derive(Default)]
 pub(super) struct Scaled(Vec<CachedImage>);
 
@@ -39,7 +39,7 @@ impl Scaled {
     /// Copies the photograph into the picture if it is cached, or else calls `scale` to draw it
     /// there.
     ///
-    /// * `picture`: RGBA bytes, `stride` bytes a row
+    /// * `picture`: RGBA bytes, with `stride` bytes per row
     pub(super) fn draw(
         &mut self,
         photograph: &RgbImage,
@@ -74,21 +74,21 @@ impl Scaled {
         }
     }
 
-    /// Returns the cache after a frame: only the photographs that the frame has shown.
+    /// Returns the cache for the next frame: only the photographs shown in this one.
     pub(super) fn after_frame(mut self) -> Self {
         self.0.retain_mut(|kept| std::mem::take(&mut kept.is_shown));
         self
     }
 }
 
-/// Hashes a photograph in a twentieth of a millisecond.
+/// Hashes a photograph, in about 0.05 ms.
 fn fingerprint(photograph: &RgbImage) -> u64 {
     let mix = |hash: u64, word: &[u8; 8]| {
         let product = (hash ^ u64::from_le_bytes(*word)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         product ^ (product >> 32)
     };
     let (words, rest) = photograph.as_raw().as_chunks::<8>();
-    // Each multiplication waits for the one before, so run four independent chains.
+    // Four independent chains, as each multiplication waits for the previous one.
     let (fours, last) = words.as_chunks::<4>();
     let mut hashes = [0, 1, 2, 3];
     for four in fours {

@@ -14,11 +14,12 @@ pub(super) fn pixel_and_step(at: f64) -> (i32, u8) {
     (steps.div_euclid(STEPS), steps.rem_euclid(STEPS) as u8)
 }
 
-/// Maximum number of stamps before the cache is cleared: a zoomed page needs new ones each time.
+/// Maximum number of stamps, at which the cache is cleared: each zoom level of a page needs new
+/// ones.
 const MOST_KEPT: usize = 2048;
 
 /// Stamps sorted by key. A sorted list, since a map would add code to the download for every key
-/// type. Caching changes no pixel: equal keys give equal stamps.
+/// type. Equal keys give equal stamps, so caching does not affect any pixel.
 pub(super) struct StampCache<K>(Vec<(K, Stamp)>);
 
 impl<K: Copy + Ord> StampCache<K> {

@@ -1,4 +1,4 @@
-//! Straight strokes, disks and rings, covered by distance.
+//! Straight strokes, disks and rings, with coverage by distance.
 //!
 //! The coverage of a pixel follows from the distance of its center to the middle of the line. This
 //! needs no outline, edges or samples, so hundreds of lines fit into a frame.
@@ -33,7 +33,7 @@ fn cover(part: &mut [u8], share: impl Fn(f32) -> f32) {
 }
 
 impl Coverage {
-    /// A straight line of a width. A round one without length is a disk.
+    /// Adds a straight line of a width. A round one of length 0 is a disk.
     pub(super) fn add_segment(&mut self, from: At, to: At, width: f32, cap: Cap) {
         let half = width / 2.0;
         let reach = half + 0.5;
@@ -88,12 +88,12 @@ impl Coverage {
         }
     }
 
-    /// A full disk.
+    /// Adds a filled disk.
     pub(super) fn add_disk(&mut self, center: At, radius: f32) {
         self.add_segment(center, center, 2.0 * radius, Cap::Round);
     }
 
-    /// A circle's line of a width.
+    /// Adds a circle of a line width.
     pub(super) fn add_ring(&mut self, center: At, radius: f32, width: f32) {
         let half = width / 2.0;
         let (outer, inner) = (radius + half + 0.5, (radius - half - 0.5).max(0.0));
@@ -106,7 +106,7 @@ impl Coverage {
             let (far, near) = (room(outer), room(inner));
             let left = self.columns_within(center.0 - far, center.0 - near);
             let right = self.columns_within(center.0 + near, center.0 + far);
-            // Above and below the hole both ranges are one.
+            // Above and below the hole both ranges are the same.
             let right = right.start.max(left.end)..right.end.max(left.end);
             for columns in [left, right] {
                 let first = columns.start as f32 + 0.5 - center.0;
@@ -119,7 +119,7 @@ impl Coverage {
     }
 }
 
-/// The x with `low ≤ slope · x + offset ≤ high`.
+/// Returns the x with `low ≤ slope · x + offset ≤ high`.
 fn within(slope: f32, offset: f32, low: f32, high: f32) -> (f32, f32) {
     if slope.abs() < 1e-6 {
         return match (low..=high).contains(&offset) {
@@ -135,7 +135,7 @@ fn within(slope: f32, offset: f32, low: f32, high: f32) -> (f32, f32) {
 mod tests {
     use super::*;
 
-    /// Covered area, pixels, and the picture itself.
+    /// Returns the covered area, pixels, and the picture itself.
     fn covered(draw: impl FnOnce(&mut Coverage)) -> (f64, Vec<u8>) {
         let mut coverage = Coverage::default().sized(100, 80);
         draw(&mut coverage);

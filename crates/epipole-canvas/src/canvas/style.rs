@@ -16,7 +16,7 @@ pub struct Stroke {
 }
 
 impl Stroke {
-    /// A solid line.
+    /// Creates a solid line.
     pub const fn solid(role: Role, width: f64) -> Self {
         Self {
             role,
@@ -26,7 +26,7 @@ impl Stroke {
         }
     }
 
-    /// The same line, dashed.
+    /// Returns the line dashed.
     pub const fn dashed(self) -> Self {
         Self {
             dash: Dash::Dashed,
@@ -34,7 +34,7 @@ impl Stroke {
         }
     }
 
-    /// The same line, dotted.
+    /// Returns the line dotted.
     pub const fn dotted(self) -> Self {
         Self {
             dash: Dash::Dotted,
@@ -42,17 +42,17 @@ impl Stroke {
         }
     }
 
-    /// The same line, dashed if `dashed`.
+    /// Returns the line dashed if `dashed`.
     pub fn dashed_if(self, dashed: bool) -> Self {
         if dashed { self.dashed() } else { self }
     }
 
-    /// The same line, dotted if `dotted`.
+    /// Returns the line dotted if `dotted`.
     pub fn dotted_if(self, dotted: bool) -> Self {
         if dotted { self.dotted() } else { self }
     }
 
-    /// The line of one of several curves: they differ in hue and in pattern.
+    /// Creates the line of one of several curves, which differ in hue and pattern.
     pub fn of_series(series: usize, width: f64) -> Self {
         let stroke = Self::solid(Role::Series(series as u8), width);
         match series % 3 {
@@ -62,7 +62,7 @@ impl Stroke {
         }
     }
 
-    /// The same line with a casing.
+    /// Returns the line with a casing.
     pub const fn cased(self) -> Self {
         Self {
             cased: true,
@@ -71,18 +71,18 @@ impl Stroke {
     }
 }
 
-/// The pattern of a line.
+/// Pattern of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
-    /// One piece.
+    /// Continuous.
     Solid,
-    /// Long pieces.
+    /// Long dashes.
     Dashed,
-    /// Short pieces.
+    /// Short dashes.
     Dotted,
 }
 
-/// The shape of a marker.
+/// Shape of a marker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shape {
     /// A filled disk.
@@ -102,7 +102,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape that goes with [`Role::Series`], so that hue is never the only channel.
+    /// Returns the shape for [`Role::Series`], so that hue is never the only channel.
     pub fn of_series(index: usize) -> Self {
         [
             Self::Disk,
@@ -118,11 +118,11 @@ impl Shape {
 /// Horizontal alignment of a text relative to its position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
-    /// It begins there.
+    /// Starts at the position.
     Start,
-    /// Its middle is there.
+    /// Centered on the position.
     Middle,
-    /// It ends there.
+    /// Ends at the position.
     End,
 }
 
@@ -140,7 +140,7 @@ pub struct TextStyle {
 }
 
 impl TextStyle {
-    /// Text that begins at its place.
+    /// Creates text that starts at its position.
     pub fn new(role: Role, size: f64) -> Self {
         Self {
             role,
@@ -150,7 +150,7 @@ impl TextStyle {
         }
     }
 
-    /// The same text around its place.
+    /// Returns the style centered on its position.
     pub fn middle(self) -> Self {
         Self {
             align: Align::Middle,
@@ -158,7 +158,7 @@ impl TextStyle {
         }
     }
 
-    /// The same text before its place.
+    /// Returns the style that ends at its position.
     pub fn end(self) -> Self {
         Self {
             align: Align::End,
@@ -166,7 +166,7 @@ impl TextStyle {
         }
     }
 
-    /// The same text with a casing.
+    /// Returns the style with a casing.
     pub fn cased(self) -> Self {
         Self {
             cased: true,

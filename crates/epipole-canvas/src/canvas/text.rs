@@ -6,7 +6,7 @@ use crate::font::{self, CAP_HEIGHT};
 use crate::theme::Role;
 
 impl Canvas {
-    /// A line of text; `place` is on its baseline.
+    /// Draws a line of text with `place` on its baseline.
     pub fn text(&mut self, place: Place, text: &str, style: TextStyle) {
         let width = text_width(text, style.size);
         let left = match style.align {
@@ -26,7 +26,7 @@ impl Canvas {
         draw(0.0, style.role);
     }
 
-    /// A line of text whose capitals are centered on `place` vertically.
+    /// Draws a line of text whose capitals are vertically centered on `place`.
     pub fn label(&mut self, place: Place, text: &str, style: TextStyle) {
         self.text(
             (place.0, place.1 + style.size * CAP_HEIGHT / 2.0),
@@ -35,8 +35,8 @@ impl Canvas {
         );
     }
 
-    /// Lines of text that fill a rectangle from its top, broken between words; the height that
-    /// they take.
+    /// Draws text in a rectangle from its top, broken between words. Returns the height used, CSS
+    /// pixels.
     pub fn paragraph(&mut self, rect: Rect, text: &str, style: TextStyle) -> f64 {
         let line_height = line_height(style.size);
         let x = match style.align {
@@ -53,12 +53,12 @@ impl Canvas {
     }
 }
 
-/// Width of a line of text, CSS pixels.
+/// Returns the width of a line of text, CSS pixels.
 pub fn text_width(text: &str, size: f64) -> f64 {
     font::width(text) * size
 }
 
-/// Height of a paragraph of this width, CSS pixels.
+/// Returns the height of a paragraph of this width, CSS pixels.
 pub fn paragraph_height(text: &str, size: f64, width: f64) -> f64 {
     break_lines(text, size, width).len() as f64 * line_height(size)
 }
@@ -67,7 +67,7 @@ fn line_height(size: f64) -> f64 {
     (size * 1.4).round()
 }
 
-/// Lines of text no wider than `width`, broken between words; a longer word has its own line.
+/// Breaks text between words into lines no wider than `width`; a longer word gets its own line.
 fn break_lines(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -1,4 +1,4 @@
-//! Photographs in perspective: each pixel of the page samples the photograph.
+//! Photographs in perspective: each pixel of the figure samples the photograph.
 
 use super::photograph::blend;
 use super::{Canvas, Place};
@@ -6,13 +6,13 @@ use image::RgbImage;
 use nalgebra::{Matrix3, Vector3};
 use std::borrow::Cow;
 
-/// Maximum number of the photograph's pixels per device pixel; the photograph is halved until then.
+/// Maximum number of photograph pixels per device pixel; the photograph is halved until it is met.
 const FINE: f64 = 1.6;
 
 impl Canvas {
-    /// A photograph on a plane in space, seen in perspective.
+    /// Draws a photograph on a plane in space, in perspective.
     ///
-    /// * `corners`: positions of the corners of the part drawn, in order; it is convex
+    /// * `corners`: positions of the corners of the drawn part, in order; it must be convex
     /// * `photo_from_page`: the homography from CSS pixels to pixels of the photograph, centers at
     ///   integers
     ///
@@ -41,7 +41,7 @@ impl Canvas {
         let source = Source::new(&photograph);
         let shrink = libm::exp2(-f64::from(halvings));
         let shift = 0.5 * shrink - 0.5;
-        // From device pixels to the halved photograph, from its corner.
+        // From device pixels to the halved photograph, whose origin is its corner.
         let smaller = Matrix3::new(shrink, 0.0, shift, 0.0, shrink, shift, 0.0, 0.0, 1.0);
         let page = Matrix3::new(
             1.0 / self.scale,
@@ -97,15 +97,15 @@ impl Canvas {
     }
 }
 
-/// Length of pieces of a row with exact positions at both ends and linear interpolation between,
-/// since a division per pixel costs more than its color. The error is at most 1/30 pixel of the
-/// photograph, over a thousand device pixels with a depth ratio of two.
+/// Length of row pieces with exact positions at both ends and linear interpolation between, since a
+/// division per pixel costs more than sampling. The error is at most 1/30 pixel of the photograph,
+/// over a thousand device pixels with a depth ratio of two.
 const PIECE: usize = 8;
 
 /// Fractional bits of a position.
 const BITS: u32 = 16;
 
-/// A photograph that can be sampled everywhere.
+/// A photograph that can be sampled at any position.
 struct Source {
     /// Red, green and blue, sixteen bits each.
     pixels: Vec<u64>,
@@ -127,16 +127,16 @@ impl Source {
         }
     }
 
-    /// Draws pixels at positions spaced evenly from `start` up to `end`, the position of the next
+    /// Draws pixels at evenly spaced positions from `start` up to `end`, the position of the next
     /// pixel.
     fn draw(&self, start: (f64, f64), end: (f64, f64), pixels: &mut [u8]) {
         let count = (pixels.len() / 4) as i64;
-        // The cast makes NaN 0. Beyond the clamp the color is that of the edge anyway.
+        // The cast makes NaN 0. Values beyond the clamp have the edge color anyway.
         let fixed = |value: f64| (value.clamp(-1e9, 1e9) * f64::from(1 << BITS) + 0.5) as i64;
         let [u0, v0, u1, v1] = [start.0, start.1, end.0, end.1].map(fixed);
         let (step_u, step_v) = ((u1 - u0) / count, (v1 - v0) / count);
         let (mut u, mut v) = (u0, v0);
-        // Positions between two inside ones are inside.
+        // Positions between two inside ones are also inside.
         let is_inside = |a: i64, b: i64, last: i64| a.min(b) >= 0 && a.max(b) < last;
         let are_inside = is_inside(u0, u1, self.last.0) && is_inside(v0, v1, self.last.1);
         for pixel in pixels.as_chunks_mut::<4>().0 {
@@ -176,7 +176,7 @@ impl Source {
     }
 }
 
-/// Returns the weight of the second of two neighbors, of 256.
+/// Returns the weight of the second of two neighbors, 0 to 255 of 256.
 #[inline(always)]
 fn weight(at: i64) -> u64 {
     ((at >> (BITS - 8)) & 0xff) as u64

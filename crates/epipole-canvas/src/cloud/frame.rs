@@ -1,9 +1,9 @@
-//! A picture of a space, with the depth and the point index of each pixel.
+//! Rendered view of a scene, with the depth and the point index of each pixel.
 
 use super::picture::Standing;
 use super::{Line, Orbit, Scene, surface};
 
-/// Options for drawing a space.
+/// Options for drawing a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
     /// Side of a point at the orbit's distance, pixels.
@@ -27,7 +27,7 @@ impl Default for Look {
 /// Index for no point.
 const NONE: u32 = u32::MAX;
 
-/// A picture. Its memory is reused for the next one.
+/// A rendered view. Its memory is reused for the next one.
 #[derive(Debug, Clone, Default)]
 pub struct Frame {
     width: usize,
@@ -38,12 +38,12 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Width and height, pixels.
+    /// Returns width and height, pixels.
     pub fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
-    /// Red, green, blue, opaque, row by row.
+    /// Returns the pixels: red, green, blue, opaque, row by row.
     pub fn rgba(&self) -> &[u8] {
         &self.rgba
     }
@@ -113,7 +113,7 @@ impl Frame {
                 place[2] - middle.z,
             );
             let depth = m20 * x + m21 * y + m22 * z + distance;
-            // Also false for NaN.
+            // The comparison is false for NaN.
             let is_in_front = depth > near;
             if !is_in_front {
                 continue;
@@ -252,7 +252,7 @@ mod tests {
         let mut frame = Frame::default();
         frame.draw(&scene, &orbit, (40, 40), &Look::default());
         assert_eq!(frame.pick(20.0, 20.0, 2), Some(1));
-        // From behind it is the other one.
+        // Seen from behind, the other point is in front.
         orbit.turn(std::f64::consts::PI, 0.0);
         frame.draw(&scene, &orbit, (40, 40), &Look::default());
         assert_eq!(frame.pick(20.0, 20.0, 2), Some(0));

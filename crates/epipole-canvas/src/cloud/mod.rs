@@ -1,8 +1,7 @@
-//! Software rendering of points and cameras in space: point clouds of millions that the user
-//! rotates.
+//! Software rendering of points and cameras in 3D: point clouds of millions that the user rotates.
 //!
-//! Every pixel keeps the depth and the index of its point, so a click finds a point without a
-//! search. Figures do not use this module, so their pages do not include it.
+//! Every pixel keeps the depth and the index of its point, so a click needs no search. Figures do
+//! not use this module, so their pages do not include it.
 //!
 //! ```
 //! use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
@@ -24,18 +23,19 @@ pub use frame::{Frame, Look};
 pub use orbit::Orbit;
 pub use picture::Picture;
 
-/// Content of a space.
+/// Content of a 3D view.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Scene {
-    /// Positions and colors.
+    /// Positions and colors of points.
     pub points: Vec<([f32; 3], [u8; 3])>,
-    /// The points from this index on are vertices of triangles, which only coarse pictures show.
+    /// Index of the first vertex: from it on, points are vertices of triangles, and are drawn only
+    /// in coarse pictures.
     pub first_vertex: usize,
-    /// The vertices of each triangle, counted from the first one.
+    /// Vertices of each triangle, as indices from the first vertex.
     pub triangles: Vec<[u32; 3]>,
     /// Lines, such as the edges of a camera's frustum.
     pub lines: Vec<Line>,
-    /// Photographs in the space.
+    /// Photographs in the scene.
     pub pictures: Vec<Picture>,
 }
 

@@ -1,18 +1,18 @@
-//! Viewpoint of a space, orbiting about its center.
+//! Viewpoint that orbits about a center.
 
 use super::Scene;
 use super::outermost::Outermost;
 use super::perspective::{FOCAL, NEAREST};
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
-/// A view of a space.
+/// A view of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orbit {
     /// Center of the orbit and of the picture.
     pub middle: Point3<f64>,
     /// Distance from the center.
     pub distance: f64,
-    /// Rotation about the upright axis, radians.
+    /// Rotation about the vertical axis, radians.
     pub yaw_rad: f64,
     /// Elevation of the viewpoint, radians, −π/2 to π/2.
     pub pitch_rad: f64,
@@ -26,7 +26,7 @@ pub struct Orbit {
 impl Orbit {
     /// Creates a view of all but the outermost points.
     ///
-    /// * `down`: the downward direction of the world, of any length
+    /// * `down`: the downward direction of the world, unnormalized
     pub fn around(scene: &Scene, down: [f64; 3]) -> Self {
         let (mut middle, mut size) = (Point3::origin(), 1.0);
         if !scene.points.is_empty() {
@@ -69,7 +69,7 @@ impl Orbit {
         }
     }
 
-    /// Moves as near as possible with all points in the picture, within a border.
+    /// Moves as near as possible with all points in the picture, plus a margin.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
         let rotation = self.rotation();
         let turned = places
@@ -78,7 +78,7 @@ impl Orbit {
         let outermost = Outermost::of(turned);
         let (mut too_near, mut far) = self.bounds();
         let mut aside = Vector3::zeros();
-        // Bisection: near to a point, projections grow so fast that proportional steps overshoot.
+        // Bisection, since proportional steps overshoot near a point, where projections grow fast.
         for _ in 0..24 {
             let distance = (too_near * far).sqrt();
             match outermost.centered(aside, distance, self.size) {
@@ -190,7 +190,8 @@ mod tests {
             let spans = [span(0), span(1)];
             assert!(spans[0].max(spans[1]) > 800.0, "{forward:?} {spans:?}");
         }
-        // No points, a single point and points that are not finite leave the view unchanged.
+        // A scene without points, with a single point or with points that are not finite leaves the
+        // view unchanged.
         let before = Orbit::around(&scene, [0.0, 1.0, 0.0]);
         for places in [&[][..], &[[f64::NAN; 3]]] {
             let mut orbit = before;

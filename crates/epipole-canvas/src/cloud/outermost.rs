@@ -1,13 +1,13 @@
-//! The outermost points, which determine how near a view can be: few of many ever touch an edge of
-//! the picture.
+//! Outermost points, which determine how near a view can be: only few of many points ever touch an
+//! edge of the picture.
 
 use super::perspective::{FOCAL, NEAREST};
 use nalgebra::Vector3;
 
-/// Outermost points in the frame of a camera that may translate but not rotate.
+/// Outermost points in the frame of a camera that translates but does not rotate.
 ///
 /// The point at an edge of the picture has the smallest or largest `x / z`, wherever the camera is,
-/// so it is on the convex hull of all `(x, z)`, and likewise of all `(y, z)`.
+/// so it is on the convex hull of all `(x, z)`, or of all `(y, z)`.
 pub(super) struct Outermost {
     /// Hulls of `(x, z)` and `(y, z)`.
     hulls: [Vec<[f64; 2]>; 2],
@@ -42,7 +42,7 @@ impl Outermost {
     }
 
     /// Returns the sideways shift that centers the points in the picture, if all are then inside
-    /// and not all at one position.
+    /// and they do not coincide.
     ///
     /// * `aside`: initial guess
     /// * `distance`: distance from the orbit's center
@@ -80,7 +80,7 @@ fn hull(mut places: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     places.sort_unstable_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     places.dedup();
     let mut corners: Vec<[f64; 2]> = Vec::new();
-    // First along one side, then back along the other.
+    // One side of the hull, then back along the other.
     let there_and_back = [places.clone(), places.into_iter().rev().collect()];
     for way in there_and_back {
         let begun = corners.len();

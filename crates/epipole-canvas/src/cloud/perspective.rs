@@ -1,6 +1,6 @@
-//! Perspective of every view of a space.
+//! Perspective of all views.
 
-/// Focal length over the shorter side of the picture.
+/// Focal length, relative to the shorter side of the picture.
 pub(super) const FOCAL: f64 = 1.2;
-/// Depth over the size of the scene below which nothing is seen.
+/// Depth of the near plane, relative to the size of the scene.
 pub(super) const NEAREST: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! Photographs in a space: textured parallelograms with per-pixel depth.
+//! Photographs in a scene: textured parallelograms with per-pixel depth.
 
 use super::Orbit;
 use nalgebra::{Matrix3, Point3, Vector3};
@@ -83,7 +83,7 @@ impl<'a> Standing<'a> {
         let x = (column as f64 + 0.5 - self.half.0) / self.focal_px;
         let y = (row as f64 + 0.5 - self.half.1) / self.focal_px;
         let shares = self.shares_of_ray * Vector3::new(x, y, 1.0);
-        // Also false for NaN.
+        // The comparison is false for NaN.
         let is_in_front = shares.z > 0.0;
         if !is_in_front {
             return None;
@@ -104,7 +104,7 @@ mod tests {
     use super::super::{Frame, Look, Scene};
     use super::*;
 
-    /// Two by two pixels: red, green, blue, white, in the plane z = 0.
+    /// A picture of 2 × 2 pixels: red, green, blue, white, in the plane z = 0.
     fn picture() -> Picture {
         Picture {
             corner: [-1.0, -1.0, 0.0],
@@ -199,7 +199,7 @@ mod tests {
                     .all(|pixel| pixel[..3] == [9; 3])
             );
         }
-        // Around the viewer: no part is drawn twice, and nothing panics.
+        // A picture around the viewer: no part is drawn twice, and nothing panics.
         let mut around = picture();
         around.corner = [-1.0, -1.0, -4.0];
         around.right = [2.0, 0.0, 8.0];

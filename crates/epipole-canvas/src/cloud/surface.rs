@@ -1,8 +1,8 @@
-//! Triangles of a scene in a picture.
+//! Triangles of a scene in a view.
 
 use super::{Orbit, Scene};
 
-/// Brightness of a triangle seen edge-on; 1 for one that faces the eye.
+/// Brightness of a triangle seen edge-on; it is 1 for one that faces the eye.
 const EDGE_ON: f32 = 0.45;
 
 /// A pixel of a triangle.
@@ -25,9 +25,9 @@ struct Corner {
     color: [u8; 3],
 }
 
-/// Draws the triangles; those with a corner behind the eye are left out.
+/// Draws the triangles, except for those with a corner behind the eye.
 ///
-/// * `plot`: receives the pixels of all triangles, also of hidden ones
+/// * `plot`: receives the pixels of all triangles, including hidden ones
 pub(super) fn draw(
     scene: &Scene,
     orbit: &Orbit,
@@ -45,7 +45,7 @@ pub(super) fn draw(
     }
 }
 
-/// The vertices as the eye sees them; `None` for those behind it.
+/// Projects the vertices; `None` for those behind the eye.
 fn corners(
     vertices: &[([f32; 3], [u8; 3])],
     orbit: &Orbit,
@@ -59,7 +59,7 @@ fn corners(
     let corner = |&(place, color): &([f32; 3], [u8; 3])| {
         let mut seen = rotation * (nalgebra::Vector3::from(place) - middle);
         seen.z += distance;
-        // Also false for NaN.
+        // The comparison is false for NaN.
         let is_in_front = seen.z > 1e-3 * distance;
         is_in_front.then(|| Corner {
             pixel: [0, 1].map(|axis| seen[axis] * (focal_px / seen.z) + half[axis]),
@@ -124,7 +124,7 @@ fn fill(
     }
 }
 
-/// Brightness by the angle between the triangle's normal and the ray to the eye.
+/// Returns the brightness by the angle between the triangle's normal and the ray to the eye.
 fn shade(places: [[f32; 3]; 3]) -> f32 {
     let [a, b, c] = places.map(nalgebra::Vector3::from);
     let normal = (b - a).cross(&(c - a));
