@@ -1,12 +1,12 @@
-//! Values that are computed once: at once on first use, or ahead of it piece by piece.
+//! Values that are computed once: on first use, or before it in small steps.
 
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// A value `T`, with the partial state `P` of its computation.
 ///
-/// Each call takes the work: `work(&mut part, amount)` does this amount of it and returns the value
-/// once nothing is left. The value does not depend on the division of the work.
+/// Each call passes the work: `work(&mut part, amount)` does this amount and returns the value once
+/// it is complete. The value does not depend on how the work is divided.
 pub(crate) struct Gradual<P, T> {
     whole: OnceLock<T>,
     part: Mutex<P>,
@@ -20,10 +20,11 @@ impl<P: Default, T> Gradual<P, T> {
         }
     }
 
-    /// Returns the value, computing what is missing.
+    /// Returns the value, after computing the remaining work.
     pub(crate) fn get(&self, work: impl Fn(&mut P, usize) -> Option<T>) -> &T {
         self.whole.get_or_init(|| {
-            // A taken part is seen by no other thread, so two threads never wait for each other.
+            // Other threads do not see a partial state that was taken, so threads never wait for
+            // each other.
             let mut part = std::mem::take(&mut *self.lock());
             loop {
                 if let Some(whole) = work(&mut part, usize::MAX) {

@@ -7,7 +7,7 @@ use crate::detail::Detail;
 use crate::objects::body::Body;
 use crate::shape::Shape;
 
-/// Cells along each side of the shade of a movable thing.
+/// Cells along each side of a movable object's shade.
 const DECAL_CELLS: usize = 96;
 
 /// Partial light maps: one per body and chart.
@@ -52,7 +52,7 @@ impl Baking {
     }
 }
 
-/// Partial shade of a movable thing.
+/// Partial shade of a movable object.
 #[derive(Debug, Default)]
 pub(crate) struct Shading {
     factors: Vec<[f32; 2]>,
@@ -70,7 +70,7 @@ impl Shading {
     ) -> Option<Decal> {
         let shade = Shade::new(bodies, lighting);
         let cells = detail.side(DECAL_CELLS);
-        // Fade out, so that the edge of the square does not show.
+        // Fades out, so that the edge of the square is not visible.
         let rim = |i: usize| {
             let share = DECAL_CELLS as f32 / cells as f32;
             (i.min(cells - 1 - i) as f32 * share / 3.0).min(1.0)

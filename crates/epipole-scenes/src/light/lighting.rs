@@ -17,13 +17,13 @@ pub(crate) struct Lighting {
     pub(crate) mirror: Mirror,
 }
 
-/// The rectangle as reflections need it.
+/// The rectangle in the form needed for reflections.
 #[derive(Debug, Clone)]
 pub(crate) struct Mirror {
     /// Its plane: `normal · x = offset`.
     pub(crate) normal: [f32; 3],
     pub(crate) offset: f32,
-    /// `u · x − u_offset` is −1 … 1 from edge to edge.
+    /// Axis: `u · x − u_offset` is −1 … 1 from edge to edge.
     pub(crate) u: [f32; 3],
     pub(crate) u_offset: f32,
     pub(crate) v: [f32; 3],
@@ -64,7 +64,7 @@ impl Lighting {
         }
     }
 
-    /// Creates even light from far away, as through the high windows of a hall.
+    /// Creates even light from far away, such as through the high windows of a hall.
     ///
     /// * `toward`: direction to the light
     /// * `half_side`: half the side of its square, as a fraction of the distance

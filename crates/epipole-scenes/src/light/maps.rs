@@ -1,4 +1,4 @@
-//! Stored light and shade: on every chart of a body, and below movable things.
+//! Stored light and shade: on every chart of a body, and below movable objects.
 
 use crate::paint::noise::split;
 
@@ -44,7 +44,7 @@ impl LightMap {
     }
 }
 
-/// Shade of a movable thing on the table, which moves with it.
+/// Shade of a movable object on the table, which moves with it.
 #[derive(Debug)]
 pub(crate) struct Decal {
     pub(super) cells: usize,
@@ -53,7 +53,7 @@ pub(crate) struct Decal {
 }
 
 impl Decal {
-    /// Returns factors for window and ambient light at a position relative to the thing's foot;
+    /// Returns factors for window and ambient light at a position relative to the object's foot;
     /// `None` outside.
     pub(crate) fn sample(&self, x_m: f64, z_m: f64) -> Option<[f32; 2]> {
         let n = self.cells as f64;

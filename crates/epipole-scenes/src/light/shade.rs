@@ -87,13 +87,13 @@ impl<'a> Shade<'a> {
             if *index == own && !body.hollow {
                 continue;
             }
-            // Skip casters whose box is below the surface.
+            // Skips casters whose box is below the surface.
             let (half, _) = caster.shape.bounds();
             let reach = half.dot(&(caster.local_from_world * n).abs());
             if (center - p).dot(n) + reach < 2.0 * LIFT_M {
                 continue;
             }
-            // Keep casters whose sphere meets the cone from the point to the window.
+            // Keeps casters whose sphere meets the cone from the point to the window.
             let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
             let off = length(&(center - (origin + to_center * along)));
             if off < radius + spread * along.max(0.02) {
@@ -203,8 +203,8 @@ impl<'a> Shade<'a> {
         self.at(own, body, &p, &n)
     }
 
-    /// Returns the darkening of the plane y = 0 at a position by the bodies on it: factors of
-    /// window light and of ambient light.
+    /// Returns how bodies darken the plane y = 0 at a position: factors for window and ambient
+    /// light.
     pub(super) fn darker(&self, x_m: f64, z_m: f64, ground: &Body) -> [f32; 2] {
         let p = Vector3::new(x_m, 0.0, z_m);
         let up = Vector3::new(0.0, -1.0, 0.0);

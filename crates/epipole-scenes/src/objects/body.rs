@@ -1,4 +1,4 @@
-//! Things in a room: shape, placement and paint.
+//! Objects in a room: shape, placement and paint.
 
 use super::proxy::Proxy;
 use crate::paint::texture::Texture;
@@ -10,13 +10,13 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(crate) struct Paint {
     pub(crate) texture: Arc<Texture>,
-    /// Texture coordinates are chart coordinates times this, plus `offset`.
+    /// Scale from chart to texture coordinates, followed by `offset`.
     pub(crate) scale: [f32; 2],
     pub(crate) offset: [f32; 2],
     pub(crate) tint: [f32; 3],
-    /// Strength of reflections, 0 for matte things, modulated by the texture's fourth channel.
+    /// Strength of reflections, 0 for matte surfaces, modulated by the texture's fourth channel.
     pub(crate) gloss: f32,
-    /// Emitted light, as from a window pane.
+    /// Emitted light, such as from a window pane.
     pub(crate) glow: f32,
     /// Cells of the light map across and down.
     pub(crate) light_cells: [usize; 2],
@@ -94,13 +94,13 @@ impl Placement {
     }
 }
 
-/// A thing: a shape for rays, with paints and light maps.
+/// An object: a shape for rays, with paints and light maps.
 #[derive(Debug)]
 pub(crate) struct Body {
     pub(crate) name: &'static str,
     pub(crate) shape: Shape,
     pub(crate) local_from_world: Matrix3<f64>,
-    /// The origin of its own frame, in the world.
+    /// Origin of its own frame, in the world.
     pub(crate) center: Vector3<f64>,
     /// Radius around `center` that contains the body, meters.
     reach_m: f64,
@@ -108,13 +108,13 @@ pub(crate) struct Body {
     pub(crate) paints: Vec<Paint>,
     /// Simplified shapes for the shade around it.
     pub(crate) proxies: Vec<Proxy>,
-    /// Whether it can shade itself: hollow things can, convex ones cannot.
+    /// Whether it can shade itself, as only hollow objects can.
     pub(crate) hollow: bool,
 }
 
 // Not inlined, for the same reason as those of `Paint`.
 impl Body {
-    /// Creates an upright thing at a position, with one paint.
+    /// Creates an upright object at a position, with one paint.
     #[inline(never)]
     pub(crate) fn new(name: &'static str, shape: Shape, center: [f64; 3], paint: &Paint) -> Self {
         let paints = vec![paint.clone(); shape.num_charts()];

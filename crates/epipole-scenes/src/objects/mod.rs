@@ -1,4 +1,4 @@
-//! Things to furnish a scene with.
+//! Objects to furnish a scene with.
 
 pub(crate) mod body;
 pub(crate) mod props;

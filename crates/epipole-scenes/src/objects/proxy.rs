@@ -3,7 +3,7 @@
 use epipole::math::length;
 use nalgebra::{Matrix3, Vector3};
 
-/// A simplified body with a cheap distance, for the shade near contacts.
+/// A simplified body whose distance is cheap to compute, for the shade near contacts.
 #[derive(Debug, Clone)]
 pub(crate) enum Proxy {
     Box {

@@ -4,7 +4,7 @@ use super::lettering::Line;
 use super::noise::{Noise, blend, dim, mix, step, with_gloss};
 use super::texture::Texture;
 
-/// Bookcloth, gray, to be tinted.
+/// Paints gray bookcloth, to be tinted.
 pub(crate) fn linen(noise: &'static Noise) -> Texture {
     Texture::paint(128, 128, true, move |s, t| {
         let weave = noise.tile(s, t, [128, 32]) + noise.tile(s + 0.5, t, [32, 128]);
@@ -14,7 +14,7 @@ pub(crate) fn linen(noise: &'static Noise) -> Texture {
     })
 }
 
-/// The edges of a book's leaves, lines along s.
+/// Paints the edges of a book's leaves, lines along s.
 pub(crate) fn pages(noise: &'static Noise) -> Texture {
     Texture::paint(64, 128, true, move |s, t| {
         let leaf = noise.tile(s, t, [4, 128]) + 0.5 * noise.tile(s, t, [16, 64]);
@@ -24,7 +24,7 @@ pub(crate) fn pages(noise: &'static Noise) -> Texture {
     })
 }
 
-/// A spine: cloth in a color, raised bands, a label with the title and a gilt ornament.
+/// Paints a spine: cloth in a color, raised bands, a label with the title and a gilt ornament.
 ///
 /// `aspect` is length over thickness; the title runs along it.
 pub(crate) fn book_spine(
@@ -41,7 +41,7 @@ pub(crate) fn book_spine(
         let (x, y) = (s * aspect, t);
         let weave = noise.value(x * 70.0, y * 24.0 + seed) + noise.value(x * 24.0, y * 70.0 + seed);
         let worn = noise.octaves(x * 1.7 + seed, y * 2.0, 4);
-        // Rounded: the light falls from above.
+        // Rounded, with light from above.
         let round = 1.16 - 0.55 * (y - 0.25).max(0.0) - 0.9 * (0.10 - y).max(0.0);
         let mut color = dim(cloth, (1.0 + 0.11 * weave + 0.30 * worn) * round);
         let mut gloss = 0.25;
@@ -79,7 +79,7 @@ pub(crate) fn book_spine(
     })
 }
 
-/// The front of a cover: cloth, a gilt frame, a medallion and rubbed corners.
+/// Paints the front of a cover: cloth, a gilt frame, a medallion and rubbed corners.
 pub(crate) fn book_cover(noise: &'static Noise, cloth: [f32; 3], title: &str) -> Texture {
     let line = Line::new(title);
     let gold = [0.72, 0.52, 0.20];
@@ -95,7 +95,7 @@ pub(crate) fn book_cover(noise: &'static Noise, cloth: [f32; 3], title: &str) ->
         for ring in [0.14, 0.20, 0.215] {
             ink = ink.max(step(0.008, 0.003, (r - ring).abs()));
         }
-        // Two eyes' rays meeting in the medallion.
+        // Viewing rays of two eyes, which meet in the medallion.
         for sign in [-1.0f32, 1.0] {
             let off = px - sign * (py + 0.14) * 0.45;
             if r < 0.14 {

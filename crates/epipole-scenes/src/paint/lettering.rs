@@ -6,7 +6,7 @@ use super::noise::{mix, split, step};
 const COLUMNS: i32 = 5;
 const ROWS: i32 = 7;
 
-/// Seven rows of five bits, the leftmost column in the highest bit.
+/// Returns seven rows of five bits, the leftmost column in the highest bit.
 #[rustfmt::skip]
 fn rows(letter: char) -> [u8; 7] {
     match letter {

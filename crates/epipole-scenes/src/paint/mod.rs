@@ -1,6 +1,6 @@
 //! Painted surfaces. Each function returns a texture that depends only on its arguments.
 //!
-//! Colors are linear, so numbers are smaller than they look: 0.2 is middle gray.
+//! Colors are linear, so numbers are smaller than perceived brightness: 0.2 is middle gray.
 
 mod books;
 mod lettering;

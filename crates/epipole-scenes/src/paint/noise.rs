@@ -1,4 +1,4 @@
-//! Smooth pseudo-random functions of the plane, from which every painted surface is made.
+//! Smooth pseudo-random functions of the plane, the basis of all painted surfaces.
 
 use epipole::math::random::Random;
 use std::sync::LazyLock;
@@ -52,7 +52,7 @@ impl Noise {
         )
     }
 
-    /// Not inlined: it has so many callers that copies would be a good part of a module.
+    /// Not inlined: it has so many callers that copies would take a considerable part of a module.
     #[inline(never)]
     fn masked(&self, x: f32, y: f32, mask_x: usize, mask_y: usize) -> f32 {
         let (xi, fx) = split(x);
@@ -61,14 +61,14 @@ impl Noise {
         let (x0, x1) = (xi as usize & mask_x, (xi + 1) as usize & mask_x);
         let row0 = (yi as usize & mask_y) * SIDE;
         let row1 = ((yi + 1) as usize & mask_y) * SIDE;
-        // The masks are already below the side; repeating it avoids bounds checks.
+        // The indices are already in range; the mask avoids bounds checks.
         let at = |index: usize| self.lattice[index & (SIDE * SIDE - 1)];
         let a = mix(at(row0 + x0), at(row0 + x1), fx);
         let b = mix(at(row1 + x0), at(row1 + x1), fx);
         mix(a, b, fy)
     }
 
-    /// Octaves of [`Noise::value`], each twice as fine and half as strong as the last.
+    /// Sums octaves of [`Noise::value`], each twice as fine and half as strong as the last.
     pub(crate) fn octaves(&self, x: f32, y: f32, octaves: u32) -> f32 {
         let (mut sum, mut weight, mut scale) = (0.0, 0.5, 1.0);
         for _ in 0..octaves {
@@ -79,7 +79,7 @@ impl Noise {
         sum
     }
 
-    /// Octaves of [`Noise::tile`].
+    /// Sums octaves of [`Noise::tile`].
     pub(crate) fn octaves_tile(&self, s: f32, t: f32, cells: [u16; 2], octaves: u32) -> f32 {
         let (mut sum, mut weight, mut cells) = (0.0, 0.5, cells);
         for _ in 0..octaves {
@@ -91,7 +91,7 @@ impl Noise {
     }
 }
 
-/// Integer and fractional part, the latter in [0, 1), for |x| < 2²².
+/// Returns the integer and the fractional part, the latter in [0, 1), for |x| < 2²².
 #[inline]
 pub(crate) fn split(x: f32) -> (i32, f32) {
     // Adding 1.5 · 2²³ rounds to an integer in the lowest bits: two additions instead of slow
@@ -107,7 +107,7 @@ pub(crate) fn split(x: f32) -> (i32, f32) {
     }
 }
 
-/// The smooth step 3t² − 2t³ on [0, 1].
+/// Smooth step 3t² − 2t³ on [0, 1].
 #[inline]
 pub(crate) fn ease(t: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
@@ -119,13 +119,13 @@ pub(crate) fn step(low: f32, high: f32, x: f32) -> f32 {
     ease(((x - low) * (1.0 / (high - low))).clamp(0.0, 1.0))
 }
 
-/// Linear interpolation from `a` (at 0) to `b` (at 1).
+/// Interpolates linearly from `a` (at 0) to `b` (at 1).
 #[inline]
 pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-/// Linear interpolation of colors.
+/// Interpolates linearly between colors.
 #[inline]
 pub(crate) fn blend(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
     [mix(a[0], b[0], t), mix(a[1], b[1], t), mix(a[2], b[2], t)]
@@ -137,7 +137,7 @@ pub(crate) fn dim(color: [f32; 3], factor: f32) -> [f32; 3] {
     [color[0] * factor, color[1] * factor, color[2] * factor]
 }
 
-/// A color with full or partial gloss.
+/// Combines a color with gloss, 0 to 1.
 pub(crate) fn with_gloss(color: [f32; 3], gloss: f32) -> [f32; 4] {
     [color[0], color[1], color[2], gloss]
 }

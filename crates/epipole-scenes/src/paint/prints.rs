@@ -9,7 +9,7 @@ fn inside(d: f32, soft: f32) -> f32 {
     step(soft, -soft, d)
 }
 
-/// Woven cotton with a block print: a field of flowers in two inks within a double border.
+/// Paints woven cotton with a block print: a field of flowers in two inks within a double border.
 ///
 /// `aspect` is width over height.
 pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
@@ -22,7 +22,7 @@ pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
         // In units of the height.
         let (x, y) = (s * aspect, t);
         let rim = x.min(aspect - x).min(y.min(1.0 - y));
-        // The hand-cut block wanders a little.
+        // Irregular, as the block is cut by hand.
         let wobble = 0.010 * noise.value(x * 14.0, y * 14.0);
         let mut color = ground;
         if rim > 0.155 {
@@ -65,7 +65,7 @@ pub(crate) fn block_print(noise: &'static Noise, aspect: f32) -> Texture {
                 color = blend(color, rust, 0.55);
             }
         }
-        // Thread over thread.
+        // Threads of the weave.
         let (wx, wy) = (x * 300.0, y * 300.0);
         let weave = noise.value(wx, y * 40.0) + noise.value(x * 40.0 + 70.0, wy);
         let crease = 0.6 * noise.value(x * 3.0 + y * 2.0, y * 2.0 - x);
@@ -116,7 +116,7 @@ fn frame(
     None
 }
 
-/// A framed landscape: hills behind hills, a lake and a low sun.
+/// Paints a framed landscape: hills behind hills, a lake and a low sun.
 pub(crate) fn landscape(noise: &'static Noise, size: [f32; 2]) -> Texture {
     const SIDE: u32 = 256;
     // Skyline of each ridge, one value per column.
@@ -166,7 +166,7 @@ pub(crate) fn landscape(noise: &'static Noise, size: [f32; 2]) -> Texture {
     })
 }
 
-/// A framed composition of tilted, colored rectangles and discs.
+/// Paints a framed composition of tilted, colored rectangles and discs.
 pub(crate) fn geometric(noise: &'static Noise, size: [f32; 2]) -> Texture {
     const COLORS: [[f32; 3]; 7] = [
         [0.62, 0.10, 0.055],
@@ -205,7 +205,7 @@ pub(crate) fn geometric(noise: &'static Noise, size: [f32; 2]) -> Texture {
     })
 }
 
-/// A framed chart of the sky: circles, spokes, stars and a title.
+/// Paints a framed chart of the sky: circles, spokes, stars and a title.
 pub(crate) fn star_chart(noise: &'static Noise, size: [f32; 2]) -> Texture {
     let title = Line::new("PARALLAX");
     let small = Line::new("SIX MONTHS . TWO VIEWS");

@@ -5,12 +5,12 @@ use super::noise::{Noise, blend, dim, split, step, with_gloss};
 use super::texture::Texture;
 use nalgebra::Vector2;
 
-/// Noise around an axis, closed at s = 1.
+/// Returns noise around an axis, continuous at s = 1.
 fn around(noise: &Noise, s: f32, t: f32, cells: u16) -> f32 {
     noise.tile(s, t, [cells, cells])
 }
 
-/// A cream mug with a printed cobalt band; its profile gives radius and height at t.
+/// Paints a cream mug with a printed cobalt band; its profile gives radius and height at t.
 pub(crate) fn mug(
     noise: &'static Noise,
     profile: impl Fn(f64) -> Vector2<f64> + Send + Sync + 'static,
@@ -78,7 +78,7 @@ pub(crate) fn mug(
     })
 }
 
-/// A tall jug in celadon with a dark combed band and a cream neck.
+/// Paints a tall jug in celadon with a dark combed band and a cream neck.
 pub(crate) fn jug(
     noise: &'static Noise,
     profile: impl Fn(f64) -> Vector2<f64> + Send + Sync + 'static,
@@ -125,7 +125,8 @@ pub(crate) fn jug(
     })
 }
 
-/// Peel with pores, a navel at one end and a stalk's scar at the other; gray parts are tinted.
+/// Paints peel with pores, a navel at one end and a stalk's scar at the other; gray parts are
+/// tinted.
 pub(crate) fn citrus(noise: &'static Noise, ripe: [f32; 3], pale: [f32; 3]) -> Texture {
     Texture::paint(256, 128, true, move |s, t| {
         let cloud = noise.octaves_tile(s, t, [8, 4], 3);
@@ -141,7 +142,7 @@ pub(crate) fn citrus(noise: &'static Noise, ripe: [f32; 3], pale: [f32; 3]) -> T
     })
 }
 
-/// An apple's skin: red stripes over yellow, pale dots, green near the stalk.
+/// Paints an apple's skin: red stripes over yellow, pale dots, green near the stalk.
 pub(crate) fn apple(noise: &'static Noise) -> Texture {
     Texture::paint(256, 128, true, move |s, t| {
         let blush = noise.octaves_tile(s, t, [4, 2], 3) + 0.22;
@@ -150,14 +151,14 @@ pub(crate) fn apple(noise: &'static Noise) -> Texture {
         let mut color = blend([0.62, 0.50, 0.10], [0.48, 0.035, 0.03], red);
         let dot = noise.tile(s, t, [64, 32]);
         color = blend(color, [0.75, 0.62, 0.36], 0.7 * step(0.70, 0.9, dot));
-        // t runs from the flower's end below to the stalk's above.
+        // t runs from the blossom end at the bottom to the stalk at the top.
         let green = step(0.82, 0.97, t + 0.03 * stripe);
         color = blend(color, [0.30, 0.33, 0.07], 0.8 * green);
         with_gloss(color, 0.8)
     })
 }
 
-/// A printed tea tin: a label with letters on a patterned ground.
+/// Paints a printed tea tin: a label with letters on a patterned ground.
 pub(crate) fn tin(noise: &'static Noise, ground: [f32; 3], word: &str) -> Texture {
     let line = Line::new(word);
     let fine = Line::new("GATHERED BY HAND");

@@ -4,11 +4,11 @@ use super::lettering::Line;
 use super::noise::{Noise, blend, dim, mix, split, step, with_gloss};
 use super::texture::Texture;
 
-/// The color of oak at (x, y) meters, the grain along x.
+/// Returns the color of oak at (x, y) meters, with the grain along x.
 fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3]) -> [f32; 3] {
     let shift = board * 7.31;
     let bend = noise.octaves(x * 1.9 + shift, y * 9.0 + shift, 2);
-    // Year rings, cut lengthwise: bands that wander.
+    // Growth rings, cut lengthwise: irregular bands.
     let ring = (y * 46.0 + bend * 7.5 + noise.value(x * 5.0 + shift, y * 30.0) * 0.4) * 0.5;
     let (_, phase) = split(ring);
     let band = step(0.0, 0.75, phase) * step(1.0, 0.86, phase);
@@ -22,7 +22,7 @@ fn oak(noise: &Noise, x: f32, y: f32, board: f32, light: [f32; 3], dark: [f32; 3
     dim(color, 1.0 + 0.16 * noise.at(board as i32 * 5, 3))
 }
 
-/// A table top of `num_boards` boards along s, with joints, scratches and ring marks.
+/// Paints a table top of `num_boards` boards along s, with joints, scratches and ring marks.
 pub(crate) fn boards(
     noise: &'static Noise,
     size: [u32; 2],
@@ -49,7 +49,7 @@ pub(crate) fn boards(
     })
 }
 
-/// The color of oak in a tile, the grain along t.
+/// Returns the color of oak in a tile, with the grain along t.
 fn oak_tile(
     noise: &Noise,
     [s, t]: [f32; 2],
@@ -57,7 +57,8 @@ fn oak_tile(
     light: [f32; 3],
     dark: [f32; 3],
 ) -> [f32; 3] {
-    // A different part of the noise for each board; t stays whole, so the tile closes.
+    // A different part of the noise for each board; the period in t is kept, so that the tile
+    // repeats.
     let (s, t) = (s + 0.37 * board as f32, t + 0.21 * board as f32);
     let bend = noise.octaves_tile(s, t, [16, 2], 2);
     let (_, phase) = split(s * 37.0 + bend * 4.0);
@@ -72,7 +73,7 @@ fn oak_tile(
     )
 }
 
-/// Floor boards along t, seven to a tile.
+/// Paints floor boards along t, seven per tile.
 pub(crate) fn floor(noise: &'static Noise) -> Texture {
     let (light, dark) = ([0.25, 0.15, 0.085], [0.115, 0.062, 0.032]);
     Texture::paint(256, 256, true, move |s, t| {
@@ -83,7 +84,7 @@ pub(crate) fn floor(noise: &'static Noise) -> Texture {
     })
 }
 
-/// The top of the long table: one meter along t with marks every decimeter, to be repeated.
+/// Paints the top of the long table: one repeating meter along t, with marks every decimeter.
 pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
     let (light, dark) = ([0.44, 0.262, 0.132], [0.22, 0.112, 0.05]);
     let (pale, ebony) = ([0.60, 0.48, 0.32], [0.045, 0.033, 0.027]);
@@ -92,8 +93,8 @@ pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
         let joint_m = within.min(1.0 - within) * width_m / 9.0;
         let mut color = oak_tile(noise, [s, t], board, light, dark);
         color = dim(color, mix(0.35, 1.0, step(0.0, 0.004, joint_m)));
-        // Inlaid squares in two rows, dark and light in alternation, as on a measuring rod, and a
-        // line across at every meter.
+        // Inlaid squares in two rows, alternately dark and light as on a measuring rod, and a line
+        // across at every meter.
         let (decimeter, part) = split(t * 10.0);
         let side = (2.0 * s - 1.0).abs();
         if (0.44..0.49).contains(&side) {
@@ -110,7 +111,7 @@ pub(crate) fn measured_boards(noise: &'static Noise, width_m: f32) -> Texture {
     })
 }
 
-/// A brass plate with a number of one or two digits.
+/// Paints a brass plate with a number of one or two digits.
 pub(crate) fn number(noise: &'static Noise, meters: u32) -> Texture {
     let line = Line::new(&meters.to_string());
     Texture::paint(64, 64, false, move |s, t| {
@@ -124,8 +125,8 @@ pub(crate) fn number(noise: &'static Noise, meters: u32) -> Texture {
     })
 }
 
-/// Lime-washed plaster, to be repeated: clouds, trowel strokes in raking light, flecks of an
-/// older coat and spatter.
+/// Paints repeating lime-washed plaster: clouds, trowel strokes in raking light, flecks of an older
+/// coat and spatter.
 pub(crate) fn plaster(noise: &'static Noise) -> Texture {
     let (pale, deep, under) = (
         [0.40, 0.44, 0.39],
@@ -156,7 +157,7 @@ pub(crate) fn plaster(noise: &'static Noise) -> Texture {
     })
 }
 
-/// A bright window of six panes, with a hint of a garden behind.
+/// Paints a bright window of six panes, with a hint of a garden behind.
 pub(crate) fn window(noise: &'static Noise) -> Texture {
     Texture::paint(128, 128, false, move |s, t| {
         let (_, across) = split(s * 2.0);

@@ -1,6 +1,6 @@
 //! Painted surfaces: mipmapped textures.
 //!
-//! A texture is painted on first use, so that a scene costs nothing if only its geometry is needed.
+//! A texture is painted on first use, so that a scene is cheap if only its geometry is needed.
 
 use super::noise::split;
 use crate::detail::Detail;
@@ -30,7 +30,8 @@ pub(crate) struct Texture {
     height: u32,
     paint: Box<dyn Fn(f32, f32) -> [f32; 4] + Send + Sync>,
     levels: Gradual<Painting, Vec<Level>>,
-    /// Sketch for drafts, painted separately: 64 times as fast, without needing the levels.
+    /// Sketch for drafts, painted separately, as that is 64 times as fast as downscaling the full
+    /// texture.
     sketch: Gradual<Painting, Vec<Level>>,
     /// Whether the left edge continues at the right one, as on a mug.
     wraps: bool,
@@ -70,7 +71,7 @@ impl Texture {
         [self.width as f32, self.height as f32]
     }
 
-    /// Computes up to `num_texels` more texels; false once all are there.
+    /// Computes up to `num_texels` more texels; false once all are computed.
     pub(crate) fn advance(&self, detail: Detail, num_texels: usize) -> bool {
         let (levels, size) = self.of(detail);
         levels.advance(num_texels, |part, amount| {
@@ -111,7 +112,8 @@ impl Texture {
 
     /// Returns the color around (s, t), averaged over about `2^lod` texels of the full size.
     ///
-    /// With `smooth` two levels are interpolated, otherwise the nearest one of the sketch is taken.
+    /// With `smooth`, interpolates between two levels; otherwise uses the nearest level of the
+    /// sketch.
     #[inline]
     pub(crate) fn sample(&self, s: f32, t: f32, lod: f32, smooth: bool) -> [f32; 4] {
         let (levels, lod) = match smooth {
@@ -194,9 +196,9 @@ impl fmt::Debug for Texture {
 /// Finished levels of a texture, and the texels of the next one.
 type Painting = (Vec<Level>, Vec<Texel>);
 
-/// Computes more texels, row by row: the largest level is painted, each further one is half of the
-/// one before. Returns all levels once the smallest one is there. Not generic, so that a module has
-/// one copy instead of one per texture.
+/// Computes more texels, row by row: the largest level is painted, each further one is half the
+/// size of the one before. Returns all levels once the smallest is complete. Not generic, so that a
+/// module has one copy instead of one per texture.
 fn painted(
     (levels, texels): &mut Painting,
     (width, height): (u32, u32),

@@ -13,7 +13,7 @@ impl Film {
     const SIZE: usize = 8192;
     const MOST: f32 = 2.5;
 
-    /// Returns the film of all photographs.
+    /// Returns the film shared by all photographs.
     pub(super) fn shared() -> &'static Self {
         static FILM: LazyLock<Film> = LazyLock::new(Film::new);
         &FILM

@@ -12,7 +12,7 @@ use image::{ImageBuffer, Luma, RgbImage};
 /// Quality of rendering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sampling {
-    /// One ray per pixel, coarse textures and light: for small pictures during a drag. The first
+    /// One ray per pixel, coarse textures and light, for small pictures during a drag. The first
     /// draft takes milliseconds, the first sharp photograph of a scene half a second.
     Draft,
     /// Smooth edges and textures.

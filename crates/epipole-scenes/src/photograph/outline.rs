@@ -33,7 +33,7 @@ fn corners(half: &Vector3<f64>) -> [Vector3<f64>; 8] {
     })
 }
 
-/// Returns the same of a box with these corners in the world.
+/// Returns the same for a box with these corners in the world.
 #[inline(never)]
 fn outline_of_box(
     camera: &PosedCamera,
@@ -77,7 +77,7 @@ fn outline_of_box(
 }
 
 impl Scene {
-    /// Returns the columns and rows that may show the movable thing or its shade; all other pixels
+    /// Returns the columns and rows that may show the movable object or its shade; all other pixels
     /// are independent of its position. Empty in a scene without one.
     ///
     /// * `camera`: for a picture of this width and height
@@ -104,7 +104,7 @@ impl Scene {
         let half = Vector3::new(1.0, 0.0, 1.0) * (0.5 * SHADE_M * placed.scale);
         let shade = corners(&half).map(|offset| placed.foot + offset);
         let (mut columns, mut rows, _) = outline_of_box(camera, &shade);
-        // Empty ranges behind the camera must not be joined, since they would add a corner.
+        // Empty ranges behind the camera must not be joined, as they would add a corner.
         let join = |a: (i64, i64), b: (i64, i64)| (a.0.min(b.0), a.1.max(b.1));
         for body in &movable.bodies {
             let own = outline(camera, body, placed);
@@ -125,7 +125,7 @@ mod tests {
     use epipole::math::random::Random;
     use nalgebra::Isometry3;
 
-    /// Drafts are only rendered again there.
+    /// Drafts are rendered again only in this range.
     #[test]
     fn elsewhere_nothing_changes_when_the_thing_moves() {
         let mut random = Random::new(8);

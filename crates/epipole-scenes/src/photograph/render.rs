@@ -1,8 +1,8 @@
 //! Rendering of photographs.
 //!
 //! One ray per pixel finds the surface; where neighboring pixels see different surfaces, eight more
-//! rays antialias the edge. Textures are already averaged over a pixel's width, so nothing else
-//! needs more rays. A pixel depends only on its neighbors' rays, never on the division of the work.
+//! rays antialias the edge. Textures are already averaged over a pixel's width, so no other pixels
+//! need more rays. A pixel depends only on its neighbors' rays, never on how the work is divided.
 
 use super::film::Film;
 use super::view::{Sample, TILE, View};
@@ -67,7 +67,7 @@ impl Scene {
         Ok(target)
     }
 
-    /// Renders some rows of a photograph into `target`, made by [`Photograph::blank`].
+    /// Renders some rows of a photograph into `target`, created by [`Photograph::blank`].
     ///
     /// Any slices that cover the picture give exactly the pixels of [`Scene::render`], so a
     /// picture can be refined a few rows at a time. Rows beyond the picture are ignored.
@@ -105,14 +105,13 @@ impl Scene {
         Ok(())
     }
 
-    /// Renders some pixels of a photograph as [`Sampling::Draft`] does; the other pixels of
-    /// `target` stay unchanged.
+    /// Renders some pixels of a photograph with [`Sampling::Draft`]; the other pixels of `target`
+    /// stay unchanged.
     ///
     /// * `camera`: for a picture of the target's size
     /// * `wanted`: for each pixel of the target, row by row, whether to render it
     ///
-    /// # Errors
-    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the three differ in size.
+    /// # Errors As [`Scene::render`], and [`Error::SizeMismatch`] if the sizes of the three differ.
     pub fn render_draft(
         &self,
         camera: &PosedCamera,
@@ -269,7 +268,7 @@ impl View<'_> {
     }
 }
 
-/// Returns whether a pixel's neighbors see another surface, or the same one folded.
+/// Returns whether a pixel's neighbors see another surface, or a fold of the same one.
 fn is_edge(samples: &[Sample], width: usize, offset: usize, column: usize) -> bool {
     let at = offset + column;
     let here = &samples[at];
@@ -311,7 +310,7 @@ mod tests {
         })
     }
 
-    /// The bytes are part of the contract, natively and in the browser.
+    /// Pixels must not change: the bytes are the same natively and in the browser.
     #[test]
     fn bytes_are_pinned() {
         let camera = still_life_camera(96, 72);

@@ -1,4 +1,4 @@
-//! The color of a place on a body: paint times light, plus reflections on glossy things.
+//! Color of a point on a body: paint times light, plus reflections on glossy objects.
 
 use crate::light::{LightMap, Lighting, single};
 use crate::objects::body::Body;
@@ -15,9 +15,9 @@ pub(super) struct Look {
     pub(super) direction_in_world: [f32; 3],
     /// Width of a pixel at this depth, meters in the body's frame at scale 1.
     pub(super) pixel_m: f32,
-    /// Shade factors on the table under a movable thing: window and ambient light.
+    /// Shade factors on the table under a movable object: window and ambient light.
     pub(super) decal: Option<[f32; 2]>,
-    /// Interpolate between texture levels.
+    /// Whether to interpolate between texture levels.
     pub(super) smooth: bool,
 }
 
@@ -43,8 +43,8 @@ pub(super) fn color(
     let [width, height] = paint.texture.size();
     let texels_per_m = (paint.scale[0].abs() * width * place.per_m[0] as f32)
         .max(paint.scale[1].abs() * height * place.per_m[1] as f32);
-    // On a slanted surface a pixel's footprint is longer in one direction: take a width between the
-    // two. The logarithm of the square avoids roots.
+    // On a slanted surface a pixel's footprint is longer in one direction, so a width between the
+    // two is used. The logarithm of the square avoids roots.
     let footprint = texels_per_m * look.pixel_m;
     let lod = 0.5 * log2(footprint * footprint / facing.clamp(0.12, 1.0)) - 0.35;
     let (s, t) = (place.s as f32, place.t as f32);

@@ -22,10 +22,10 @@ struct Seen<'a> {
     local_from_cam: Matrix3<f64>,
     /// Scale relative to the modeled size.
     scale: f64,
-    /// Pixels that may show it: columns and rows, both ends included.
+    /// Pixels that may show it: columns and rows, inclusive.
     columns: (i64, i64),
     rows: (i64, i64),
-    /// The same as left, right, top and bottom.
+    /// The same range as left, right, top and bottom.
     edges: [f64; 4],
     /// Lower bound of its depth; infinite for the room, which is behind everything.
     nearest: f64,
@@ -56,7 +56,7 @@ pub(super) struct Sample {
 pub(super) struct View<'a> {
     seen: Vec<Seen<'a>>,
     lighting: &'a Lighting,
-    /// Shade of the movable thing, its placement, and the index of the body under it.
+    /// Shade of the movable object, its placement, and the index of the body under it.
     shade: Option<(&'a Decal, Placement, usize)>,
     center: Vector3<f64>,
     world_from_cam: Matrix3<f64>,
@@ -102,7 +102,7 @@ impl<'a> View<'a> {
                 }
             },
         );
-        // Sort front to back; equal depths keep the order of bodies.
+        // Sorted front to back; equal depths keep the order of bodies.
         let mut seen: Vec<Seen> = Vec::new();
         for body in all {
             let is_before = |other: &Seen| other.nearest.total_cmp(&body.nearest).is_le();
@@ -173,7 +173,7 @@ impl<'a> View<'a> {
             if seen.nearest > nearest.along {
                 break;
             }
-            // A tile has candidates that a single ray misses.
+            // Some rays of a tile miss some of its candidates.
             if !seen.may_be_at(u, v) {
                 continue;
             }
@@ -199,7 +199,7 @@ impl<'a> View<'a> {
         let direction_in_world = turn(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
         let decal = match &self.shade {
-            // Shade falls on the top of the thing's support, not on its sides.
+            // Shade falls on the top of the object's support, not on its sides.
             Some((decal, placed, ground)) if *ground == seen.number && place.chart == TOP => {
                 let from_foot = (x_in_world - placed.foot) / placed.scale;
                 decal.sample(from_foot.x, from_foot.z)

@@ -1,4 +1,4 @@
-//! A scene: its bodies, its light, and one movable thing.
+//! A scene: its bodies, its light, and one movable object.
 
 mod fixed;
 mod movable;
@@ -21,8 +21,8 @@ const TEXELS_PER_STEP: usize = 4096;
 /// A furnished room that can be photographed from anywhere inside.
 ///
 /// Static parts are computed once, for the first sharp photograph or ahead of it by
-/// [`Scene::prepare`]: mipmapped textures, and light maps with soft shadows. Drafts have their own
-/// coarser ones, which take a fraction of the time. Clones share them at next to no cost; rays and
+/// [`Scene::prepare`]: mipmapped textures, and light maps with soft shadows. Drafts have coarser
+/// ones, which take a fraction of the time. Clones share them at hardly any cost; rays and
 /// transfers need only the shapes.
 #[derive(Debug, Clone)]
 pub struct Scene {
@@ -57,16 +57,15 @@ impl Scene {
             .map(Vec::as_slice)
     }
 
-    /// Returns the shade of the movable thing, its placement, and the index of the body under it.
+    /// Returns the shade of the movable object, its placement, and the index of the body under it.
     pub(crate) fn shade(&self, detail: Detail) -> Option<(&Decal, Placement, usize)> {
         let (movable, placed) = self.movable.as_ref()?;
         let look = movable.look(&self.fixed.lighting, detail);
         Some((&look.decal, *placed, movable.ground))
     }
 
-    /// Does a few milliseconds of the work for the first sharp photograph ahead of time: painting
-    /// textures and computing light. False once all is done. The photographs are the same without
-    /// it.
+    /// Does a few milliseconds of work ahead of the first sharp photograph: painting textures and
+    /// computing light. False once all is done. Photographs are the same without it.
     ///
     /// ```
     /// use epipole_scenes::Scene;
@@ -103,7 +102,7 @@ impl Scene {
         paints.any(|paint| paint.texture.advance(detail, TEXELS_PER_STEP))
     }
 
-    /// Rejects cameras from which no picture can be taken.
+    /// Rejects cameras for which no picture can be rendered.
     pub(crate) fn check(&self, camera: &PosedCamera, width: u32, height: u32) -> Result<()> {
         let num_pixels = u64::from(width) * u64::from(height);
         if num_pixels == 0 || num_pixels > 16_000_000 {

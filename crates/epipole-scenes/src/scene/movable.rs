@@ -1,4 +1,4 @@
-//! The movable thing of a scene.
+//! The movable object of a scene.
 
 use super::fixed::Lights;
 use crate::detail::Detail;
@@ -6,7 +6,7 @@ use crate::gradual::Gradual;
 use crate::light::{Baking, Decal, Lighting, Shading};
 use crate::objects::body::Body;
 
-/// A movable thing: its bodies around the origin and its shade.
+/// A movable object: its bodies around the origin and its shade.
 #[derive(Debug)]
 pub(crate) struct Movable {
     pub(crate) bodies: Vec<Body>,
@@ -17,17 +17,17 @@ pub(crate) struct Movable {
     looks: [Gradual<Looking, Look>; 2],
 }
 
-/// Partial state of a look.
+/// Partial state of a [`Look`].
 type Looking = (Baking, Shading, Option<Decal>);
 
-/// Light maps of a movable thing, and its shade.
+/// Light maps of a movable object, and its shade.
 #[derive(Debug)]
 pub(super) struct Look {
     pub(super) lights: Lights,
     pub(super) decal: Decal,
 }
 
-/// Side of the square that holds the shade of a movable thing, meters.
+/// Side of the square that holds the shade of a movable object, meters.
 pub(crate) const SHADE_M: f64 = 1.1;
 
 impl Movable {

@@ -6,7 +6,7 @@ use crate::shape::{Contact, Ray};
 use epipole::camera::PosedCamera;
 use nalgebra::{Point2, Point3, Vector3};
 
-/// Smallest ray parameter of a contact; nearer ones are the ray's own starting point.
+/// Minimum ray parameter of a contact; nearer ones are the ray's own starting point.
 const NEAR: f64 = 1e-9;
 
 /// The first surface that a ray meets.
@@ -23,7 +23,7 @@ pub struct Hit {
     pub object: &'static str,
 }
 
-/// Visibility in a second camera of the surface point at a pixel of a first one.
+/// Visibility in a second camera of the surface point at a pixel of the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Transfer {
     /// Visible to the second camera. The caller compares `pixel2` with the picture size, which a
@@ -34,7 +34,7 @@ pub enum Transfer {
         /// The point, world frame, meters.
         x_in_world: Point3<f64>,
     },
-    /// Hidden from the second camera, possibly by the other side of the same thing.
+    /// Hidden from the second camera, possibly by the other side of the same object.
     Occluded {
         /// Its pixel in the second camera.
         pixel2: Point2<f64>,
@@ -98,8 +98,8 @@ impl Scene {
 
     /// Transfers `pixel1` of `cam1` exactly to `cam2`, by the surface point that it shows.
     ///
-    /// The ray of `pixel1` is cast to the first surface, the point is projected into `cam2`, and
-    /// the ray from there determines whether it is hidden.
+    /// Casts the ray of `pixel1` to the first surface and projects the point into `cam2`; a ray
+    /// from there determines whether it is hidden.
     ///
     /// ```
     /// use epipole_scenes::{Scene, Transfer, still_life_camera};
@@ -128,7 +128,7 @@ impl Scene {
         };
         let center2 = cam2.center_in_world();
         match self.cast(&center2, &(x_in_world - center2)) {
-            // The surface itself is met at 1, up to rounding.
+            // The surface itself is hit at 1, up to rounding.
             Some(blocker) if blocker.distance_along < 1.0 - 1e-7 => Transfer::Occluded {
                 pixel2,
                 x_in_world,

@@ -4,7 +4,7 @@ use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
 use epipole::{Error, Result};
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
-/// Intrinsics for a picture of any size; `focal_px` is for 640 × 480.
+/// Returns the intrinsics for a picture of any size; `focal_px` is for 640 × 480.
 fn intrinsics(focal_px: f64, width: u32, height: u32) -> Intrinsics {
     let (width, height) = (width.max(1), height.max(1));
     let scale = (f64::from(width) / 640.0).min(f64::from(height) / 480.0);
@@ -12,7 +12,7 @@ fn intrinsics(focal_px: f64, width: u32, height: u32) -> Intrinsics {
         .expect("a focal length made of positive numbers is positive")
 }
 
-/// The viewpoint for which the still life was composed, for a picture of this size.
+/// Returns the viewpoint for which the still life was composed, for a picture of this size.
 ///
 /// The focal length is 1.25 × the width of a 4:3 picture; other shapes show the whole composition
 /// and more of the room at two sides.
@@ -33,8 +33,8 @@ pub fn still_life_camera(width: u32, height: u32) -> PosedCamera {
     }
 }
 
-/// A camera of the rectified pair that looks along the long table: its center at (`x_m`, 0, 0),
-/// no rotation, and a focal length of 700 px for a picture of 640 × 480.
+/// Returns a camera of the rectified pair that looks along the long table: its center at (`x_m`, 0,
+/// 0), no rotation, and a focal length of 700 px for a picture of 640 × 480.
 ///
 /// The second camera of a pair with baseline B has `x_m` = B.
 ///

@@ -1,4 +1,4 @@
-//! The long table: a hall with one movable thing, for measuring depth.
+//! The long table: a hall with one movable object, for measuring depth.
 
 use crate::light::Lighting;
 use crate::objects::body::{Body, Paint, Placement};
@@ -10,17 +10,17 @@ use epipole::{Error, Result};
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
-/// Height of the table's top below the camera (y is down).
+/// Vertical position of the table's top below the camera (y is down).
 const TABLE_Y: f64 = 0.25;
 const TABLE_WIDTH: f64 = 1.9;
 const TABLE_NEAR_Z: f64 = 0.35;
 const TABLE_FAR_Z: f64 = 11.35;
 const HALL_CENTER: [f64; 3] = [0.0, -0.65, 5.0];
 const HALL_SIZE: [f64; 3] = [5.6, 3.3, 14.0];
-/// The table's top is the first body of the scene.
+/// Index of the table's top among the bodies of the scene.
 const TABLE_TOP: usize = 0;
 
-/// Kind of thing on the long table.
+/// Kind of object on the long table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MovableKind {
     /// A large mug, 20 cm high and 16 cm wide without its handle.
@@ -29,20 +29,20 @@ pub enum MovableKind {
     Ball,
 }
 
-/// The movable thing and its position.
+/// The movable object and its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovableObject {
-    /// Kind of thing.
+    /// Kind of object.
     pub kind: MovableKind,
     /// Sideways position of its axis, meters, positive to the right, in [−0.8, 0.8]. The lane |x| ≤
-    /// 0.35 is free of other things.
+    /// 0.35 is free of other objects.
     pub x_m: f64,
     /// Depth of its axis from the first camera, meters, in [0.6, 11].
     pub z_m: f64,
 }
 
 impl Scene {
-    /// Returns a hall with a table of eleven meters, marked every decimeter, and one movable thing
+    /// Returns a hall with a table of eleven meters, marked every decimeter, and one movable object
     /// on it.
     ///
     /// The world's origin is the center of
@@ -50,8 +50,8 @@ impl Scene {
     /// table, meters. The table's top is y = 0.25, from z = 0.35 to 11.35, its meters numbered; the
     /// wall behind is z = 12.
     ///
-    /// Only the first photograph of each kind of thing computes textures and light; moving the
-    /// thing is free, and its shade moves with it.
+    /// Only the first photograph of each kind of object computes textures and light; moving the
+    /// object is free, and its shade moves with it.
     ///
     /// # Errors
     /// [`Error::NotFinite`] or [`Error::OutOfRange`] for a position that is not on the table.
@@ -100,7 +100,7 @@ impl Scene {
     }
 }
 
-/// Even light through high windows on the left.
+/// Returns even light through high windows on the left.
 fn lighting() -> Lighting {
     Lighting::even([-0.62, -0.66, -0.42], 80.0, 0.09, [1.25, 1.16, 1.00])
 }
@@ -112,7 +112,7 @@ fn build_hall() -> Fixed {
     Fixed::new(bodies, lighting())
 }
 
-/// Builds the thing at the origin of the plane y = 0, lit as on the table.
+/// Builds the object at the origin of the plane y = 0, lit as on the table.
 fn build_movable(kind: MovableKind) -> Movable {
     let props = Props::shared();
     let bodies = match kind {
@@ -132,7 +132,7 @@ fn table() -> Vec<Body> {
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
     let cuboid =
         |size: [f64; 3], center: [f64; 3], paint: &Paint| Body::cuboid(name, size, center, paint);
-    // On the chart, t runs toward the camera from the far end; whole t are whole meters.
+    // On the chart, t runs toward the camera from the far end; integers are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
         .shifted(0.0, (1.0 - TABLE_FAR_Z.fract()) as f32)
@@ -230,7 +230,7 @@ fn hall() -> Vec<Body> {
     bodies
 }
 
-/// Builds the static things on the table, left and right of the free lane.
+/// Builds the static objects on the table, left and right of the free lane.
 fn props() -> Vec<Body> {
     let props = Props::shared();
     let mut bodies = Vec::new();
@@ -315,7 +315,7 @@ mod tests {
         }
     }
 
-    /// Asserts that the thing darkens the table on the side away from the light.
+    /// Asserts that the object darkens the table on the side away from the light.
     #[test]
     fn the_thing_has_a_shadow() {
         let camera = long_table_camera(0.0, 320, 240).unwrap();

@@ -25,8 +25,8 @@ const CLOTH_YAW_RAD: f64 = 0.16;
 /// Center of the landscape's frame, left and down from the middle of the back wall.
 const LANDSCAPE_XY: [f64; 2] = [-0.36, -0.47];
 
-/// Corners of the cloth on the table of [`Scene::still_life`], 70 cm by 50 cm, meters in the
-/// world: the far left one, the far right one, the near right one, the near left one.
+/// Returns the corners of the cloth on the table of [`Scene::still_life`], 70 cm by 50 cm, meters
+/// in the world: the far left one, the far right one, the near right one, the near left one.
 ///
 /// ```
 /// let [far_left, far_right, near_right, _] = epipole_scenes::still_life_cloth();
@@ -44,8 +44,8 @@ pub fn still_life_cloth() -> [Point3<f64>; 4] {
     })
 }
 
-/// Corners of the landscape's frame on the back wall of [`Scene::still_life`], 62 cm by 46 cm,
-/// meters in the world: upper left, upper right, lower right, lower left.
+/// Returns the corners of the landscape's frame on the back wall of [`Scene::still_life`], 62 cm by
+/// 46 cm, meters in the world: upper left, upper right, lower right, lower left.
 pub fn still_life_landscape() -> [Point3<f64>; 4] {
     let [width, height] = LANDSCAPE_M;
     corners(width, height).map(|[x, y]| {
@@ -54,8 +54,8 @@ pub fn still_life_landscape() -> [Point3<f64>; 4] {
     })
 }
 
-/// Corners of a rectangle about the origin: left and up, right and up, right and down, left and
-/// down.
+/// Returns the corners of a rectangle about the origin: left and up, right and up, right and down,
+/// left and down.
 fn corners(width: f64, height: f64) -> [[f64; 2]; 4] {
     let (x, y) = (width / 2.0, height / 2.0);
     [[-x, -y], [x, -y], [x, y], [-x, y]]
@@ -65,10 +65,10 @@ impl Scene {
     /// Returns a table by a window with a mug of coffee, books, fruit, a jug and a tea tin on a
     /// printed cloth; pictures on a plastered wall.
     ///
-    /// The world's origin is on the table's top in the middle of the things; x points right, y
+    /// The world's origin is on the table's top in the middle of the objects; x points right, y
     /// **down** and z away from the viewer of [`still_life_camera`](crate::still_life_camera),
     /// meters. The room reaches from x = −1.7 to 1.9, y = −1.95 to 0.75 and z = −3.25 to 1.05;
-    /// every camera inside (and outside of the things) gets a photograph without holes.
+    /// every camera inside (and outside of the objects) gets a photograph without holes.
     ///
     /// The first photograph paints the textures and computes the light; later ones share them.
     ///
@@ -216,7 +216,7 @@ fn table() -> Vec<Body> {
     bodies
 }
 
-/// Builds the things on the table.
+/// Builds the objects on the table.
 fn things() -> Vec<Body> {
     let props = Props::shared();
     let cloth = Arc::new(paint::block_print(
@@ -273,7 +273,7 @@ fn things() -> Vec<Body> {
 mod tests {
     use super::*;
 
-    /// Asserts that points a little toward the middle are on the named thing, and points a little
+    /// Asserts that points a little toward the middle are on the named object, and points a little
     /// farther out are not.
     fn assert_outline(corners: &[Point3<f64>; 4], from: &Vector3<f64>, name: &str) {
         let scene = Scene::still_life();

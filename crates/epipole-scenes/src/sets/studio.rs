@@ -12,17 +12,17 @@ use epipole::{Error, Result};
 use nalgebra::Vector3;
 use std::sync::{Arc, OnceLock};
 
-/// The table's top is y = 0: a camera at the origin sees it edge-on, and only its front.
+/// Width of the table. Its top is y = 0, so a camera at the origin sees it edge-on.
 const TABLE_WIDTH: f64 = 1.5;
 const TABLE_NEAR_Z: f64 = 0.4;
 const TABLE_FAR_Z: f64 = 3.4;
 const TABLE_THICK: f64 = 0.05;
-/// The cloth that hangs down in front of it.
+/// Size of the cloth that hangs down in front of it.
 const CLOTH_M: [f64; 2] = [0.28, 0.20];
 const ROOM_CENTER: [f64; 3] = [0.7, -0.55, 1.6];
 const ROOM_SIZE: [f64; 3] = [4.8, 2.7, 5.6];
 const FLOOR_Y: f64 = ROOM_CENTER[1] + ROOM_SIZE[1] / 2.0;
-/// The table's top is the first body of the scene.
+/// Index of the table's top among the bodies of the scene.
 const TABLE_TOP: usize = 0;
 
 impl Scene {
@@ -36,9 +36,8 @@ impl Scene {
     /// z = 0.4; x points right, y **down** and z along the table, meters. The room reaches from
     /// x = −1.7 to 3.1, y = −1.9 to 0.8 and z = −1.2 to 4.4.
     ///
-    /// Scaling foot and height by one factor scales the mug about the origin. So a camera there
-    /// takes the same photograph for every factor: the table's top and the shadow on it are seen
-    /// edge-on.
+    /// Scaling foot and height by one factor scales the mug about the origin, so a camera there
+    /// takes the same photograph for every factor. The table's top with its shadow is seen edge-on.
     ///
     /// Only the first photograph computes textures and light.
     ///
@@ -94,7 +93,7 @@ impl Scene {
     }
 }
 
-/// Light from so far away that it is uniform, even in the glaze of the mug.
+/// Returns light from so far away that it is uniform, even in the glaze of the mug.
 fn lighting() -> Lighting {
     Lighting::even([-0.55, -0.70, -0.46], 1e6, 0.12, [1.20, 1.13, 1.00])
 }
@@ -126,7 +125,7 @@ fn table() -> Vec<Body> {
     let middle_z = (TABLE_FAR_Z + TABLE_NEAR_Z) / 2.0;
     let cuboid =
         |size: [f64; 3], center: [f64; 3], paint: &Paint| Body::cuboid(name, size, center, paint);
-    // On the chart, t runs toward the camera from the far end; whole t are whole meters.
+    // On the chart, t runs toward the camera from the far end; integers are whole meters.
     let top = Paint::new(&wood)
         .repeated(1.0, length as f32)
         .shifted(0.0, (1.0 - TABLE_FAR_Z.fract()) as f32)
@@ -243,7 +242,8 @@ mod tests {
         }
     }
 
-    /// Asserts that moving or growing alone changes the photograph, so the test above can fail.
+    /// Asserts that moving or growing alone changes the photograph, so that the test above can
+    /// fail.
     #[test]
     fn a_mug_that_only_moves_or_only_grows_changes_the_photograph() {
         let camera = camera1(160, 120);
@@ -259,7 +259,7 @@ mod tests {
         }
     }
 
-    /// Asserts that the axis of a mug appears f H / Z tall.
+    /// Asserts that the axis of a mug is imaged with height f H / Z.
     #[test]
     fn heights_are_seen_as_by_similar_triangles() {
         let camera = camera1(640, 480);
@@ -270,7 +270,7 @@ mod tests {
         });
         assert!((rows[0] - rows[1] - 800.0 * height_m / z_m).abs() < 1e-9);
         let scene = Scene::studio([0.2, z_m], height_m).unwrap();
-        // Just within the rim and just above it, at the mug's center.
+        // Just below the rim and just above it, at the mug's center.
         let meets = |y: f64| {
             let ray = Vector3::new(0.2, y, z_m);
             scene

@@ -1,16 +1,16 @@
-//! Turned bodies: a profile rotated about the vertical axis, such as mugs, jugs and fruit.
+//! Lathed bodies: a profile rotated about the vertical axis, such as mugs, jugs and fruit.
 
 use super::profile::Profile;
 use super::ray::{Contact, Place, Ray, turns};
 use epipole::math::length;
 use nalgebra::{Vector2, Vector3};
 
-/// One cone of a turned body.
+/// One cone of a lathed body.
 #[derive(Debug)]
 struct Segment {
     start: Vector2<f64>,
     end: Vector2<f64>,
-    /// d radius / d height; `None` for a flat ring.
+    /// Derivative of radius by height; `None` for a flat ring.
     slope: Option<f64>,
     low: f64,
     high: f64,
@@ -21,7 +21,7 @@ struct Segment {
     share: f64,
 }
 
-/// A turned body. Its axis is vertical, height is −y, and (s, t) are the angle about the axis in
+/// A lathed body. Its axis is vertical, height is −y, and (s, t) are the angle about the axis in
 /// turns and the fraction of the profile's length.
 #[derive(Debug)]
 pub(crate) struct Lathe {
@@ -123,7 +123,7 @@ impl Lathe {
         if a > 0.0 {
             let root = discriminant.sqrt();
             let inverse = 1.0 / a;
-            // A small slack, so that rounding cannot cut off the widest segment.
+            // Small tolerance, so that rounding cannot cut off the widest segment.
             let slack = 1e-9 * root * inverse;
             first = first.max((-b - root) * inverse - slack);
             last = last.min((-b + root) * inverse + slack);
@@ -172,7 +172,7 @@ impl Lathe {
             if discriminant < 0.0 {
                 continue;
             }
-            // Avoid cancellation: one root from −b ∓ √, the other from their product.
+            // Avoids cancellation: one root from −b ∓ √, the other from their product.
             let q = -(qb + if qb < 0.0 { -1.0 } else { 1.0 } * discriminant.sqrt());
             for along in [q / qa, qc / q] {
                 if along > near && along < best.along {
@@ -209,7 +209,7 @@ impl Lathe {
             s: turns(point.x, point.z),
             t: segment.before + segment.share * share,
             normal: Vector3::new(flat.x * cos, -flat.y, flat.x * sin),
-            // Near the axis s changes ever faster; filtering for it would blur t as well.
+            // Near the axis s changes arbitrarily fast; filtering for it would also blur t.
             per_m: [
                 1.0 / (std::f64::consts::TAU * radius.max(0.25 * self.radius)),
                 1.0 / self.length,

@@ -1,7 +1,7 @@
 //! Shapes with a closed-form or convergent iterative ray intersection.
 //!
-//! Each shape has its own frame, x right, y **down**, z forward like the world, and charts: maps of
-//! its surface by (s, t) in [0, 1]² for textures and light maps.
+//! Each shape has its own frame, with x right, y **down** and z forward like the world, and charts:
+//! maps of its surface by (s, t) in [0, 1]² for textures and light maps.
 
 mod cuboid;
 mod lathe;

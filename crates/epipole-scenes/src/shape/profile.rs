@@ -1,4 +1,4 @@
-//! Outlines of turned bodies.
+//! Profiles of lathed bodies.
 
 use nalgebra::Vector2;
 
@@ -11,12 +11,12 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Begins on the axis, at height 0.
+    /// Starts on the axis, at height 0.
     pub(crate) fn new() -> Self {
         Self::from_height(0.0)
     }
 
-    /// Begins on the axis at a height.
+    /// Starts on the axis at a height.
     pub(crate) fn from_height(height_m: f64) -> Self {
         Self {
             vertices: vec![Vector2::new(0.0, height_m)],
@@ -24,14 +24,14 @@ impl Profile {
         }
     }
 
-    /// A straight line to this radius and height.
+    /// Adds a straight line to this radius and height.
     pub(crate) fn to(mut self, radius_m: f64, height_m: f64) -> Self {
         self.vertices.push(Vector2::new(radius_m, height_m));
         self.sharp.push(false);
         self
     }
 
-    /// The same form, larger or smaller.
+    /// Returns the profile scaled by a factor.
     pub(crate) fn scaled(mut self, factor: f64) -> Self {
         for vertex in &mut self.vertices {
             *vertex *= factor;
@@ -39,7 +39,7 @@ impl Profile {
         self
     }
 
-    /// The last vertex is an edge, not part of a smooth curve.
+    /// Makes the last vertex an edge instead of part of a smooth curve.
     pub(crate) fn sharp(mut self) -> Self {
         if let Some(last) = self.sharp.last_mut() {
             *last = true;

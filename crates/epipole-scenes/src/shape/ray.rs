@@ -24,7 +24,7 @@ pub(crate) struct Contact {
     pub(crate) part: u32,
 }
 
-/// A place on a shape's surface.
+/// A position on a shape's surface.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) chart: usize,

@@ -26,7 +26,7 @@ impl Ring {
         }
     }
 
-    /// Distance to the unstretched torus and its gradient.
+    /// Returns the distance to the unstretched torus and its gradient.
     #[inline]
     fn distance(&self, p: &Vector3<f64>) -> (f64, Vector3<f64>) {
         let ring = (p.x * p.x + p.y * p.y).sqrt().max(1e-12);
@@ -39,8 +39,8 @@ impl Ring {
         )
     }
 
-    /// Sphere tracing: steps no longer than the distance never cross the surface (Hart 1996);
-    /// Newton's iteration then converges to it.
+    /// Intersects by sphere tracing, as steps no longer than the distance never cross the surface
+    /// (Hart 1996); Newton's iteration then converges to it.
     pub(super) fn meet(&self, ray: &Ray, near: f64, far: f64) -> Option<Contact> {
         let (half, center) = self.bounds();
         let (mut first, mut last) = (near, far);

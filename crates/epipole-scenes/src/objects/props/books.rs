@@ -5,7 +5,8 @@ use crate::objects::body::{Body, Paint};
 use crate::shape::{FRONT, TOP};
 
 impl Props {
-    /// A book lying flat, its spine toward −z, `center` in the middle of its lower face.
+    /// Creates a book lying flat, with its spine toward −z and `center` in the middle of its lower
+    /// face.
     pub(crate) fn book(
         &self,
         index: usize,

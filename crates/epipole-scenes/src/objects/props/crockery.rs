@@ -8,7 +8,7 @@ use crate::shape::{Lathe, Ring, Shape};
 use nalgebra::Vector3;
 
 impl Props {
-    /// A mug of coffee, its foot at `foot`, the handle along local x.
+    /// Creates a mug of coffee that stands at `foot`, with the handle along local x.
     pub(crate) fn mug(&self, foot: [f64; 3], yaw_rad: f64, scale: f64) -> Vec<Body> {
         let name = "the mug";
         let (radius, height) = (MUG_RADIUS_M * scale, MUG_HEIGHT_M * scale);
@@ -49,7 +49,7 @@ impl Props {
         vec![cup, handle]
     }
 
-    /// A tall jug.
+    /// Creates a tall jug.
     pub(crate) fn jug(&self, foot: [f64; 3], yaw_rad: f64, scale: f64) -> Body {
         let post = |low: f64, high: f64, radius: f64| Proxy::Post {
             center: Vector3::new(0.0, -(low + high) / 2.0 * scale, 0.0),

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 
 impl Props {
-    /// An orange that rests on `foot`.
+    /// Creates an orange that rests on `foot`.
     pub(crate) fn orange(&self, foot: [f64; 3], radius_m: f64, turn: [f64; 2]) -> Body {
         let shape = ball_profile(radius_m, radius_m * 0.95, 0.0);
         self.fruit(
@@ -23,7 +23,7 @@ impl Props {
         )
     }
 
-    /// A ball, `foot` where it touches the table.
+    /// Creates a ball that touches the table at `foot`.
     pub(crate) fn ball(&self, foot: [f64; 3], radius_m: f64) -> Body {
         let shape = ball_profile(radius_m, radius_m, 0.0);
         let mut body = self.fruit("the ball", shape, &self.orange, foot, radius_m, [0.4, 0.5]);
@@ -31,7 +31,7 @@ impl Props {
         body
     }
 
-    /// A lemon that lies on `foot`.
+    /// Creates a lemon that lies on `foot`.
     pub(crate) fn lemon(&self, foot: [f64; 3], turn: [f64; 2]) -> Body {
         let shape = ball_profile(0.030, 0.041, 0.007);
         self.fruit("a lemon", shape, &self.lemon, foot, 0.0305, turn)
@@ -59,7 +59,7 @@ impl Props {
         }])
     }
 
-    /// An apple with its stalk, its foot at `foot`.
+    /// Creates an apple with its stalk that rests on `foot`.
     pub(crate) fn apple(&self, foot: [f64; 3], radius_m: f64, yaw_rad: f64) -> Vec<Body> {
         let name = "the apple";
         let mut profile = Profile::from_height(0.0);
@@ -73,7 +73,7 @@ impl Props {
                     let x = from / width;
                     libm::exp(-x * x)
                 };
-                // From the flower's end below to the stalk's above.
+                // From the blossom end at the bottom to the stalk at the top.
                 let reach = 1.0 + 0.05 * cos.abs()
                     - 0.22 * dimple(0.30, angle)
                     - 0.50 * dimple(0.34, std::f64::consts::PI - angle)

@@ -1,4 +1,4 @@
-//! Things on tables and on walls, and their shared textures.
+//! Objects on tables and walls, and their shared textures.
 
 mod books;
 mod crockery;
@@ -50,7 +50,7 @@ pub(crate) const GEOMETRIC_M: [f64; 2] = [0.38, 0.46];
 pub(crate) const STAR_CHART_M: [f64; 2] = [0.40, 0.52];
 /// Distance of a picture's front from its wall, meters.
 pub(crate) const PICTURE_DEPTH_M: f64 = 0.028;
-/// Side of the square of wall after which the plaster repeats, meters.
+/// Period of the repeating plaster on walls, meters.
 pub(crate) const PLASTER_M: f64 = 1.7;
 
 impl Props {
@@ -125,7 +125,7 @@ impl Props {
     }
 }
 
-/// Returns the world position of a part of a thing at `at` that is rotated by `yaw_rad`.
+/// Returns the world position of a part of an object at `at` that is rotated by `yaw_rad`.
 pub(crate) fn placed(at: [f64; 3], yaw_rad: f64, part: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = libm::sincos(yaw_rad);
     [

@@ -1,9 +1,9 @@
-//! Outlines of things that were turned on a lathe.
+//! Profiles of lathed objects.
 
 use crate::shape::Profile;
 
 pub(super) const MUG_RADIUS_M: f64 = 0.048;
-/// A mug of scale 1.
+/// Height of a mug of scale 1.
 pub(crate) const MUG_HEIGHT_M: f64 = 0.118;
 pub(super) const MUG_COFFEE_M: f64 = 0.088;
 pub(super) const JUG_HEIGHT_M: f64 = 0.34;
@@ -63,7 +63,7 @@ pub(super) fn jug_profile() -> Profile {
     profile.sharp().to(0.0, 0.262).sharp()
 }
 
-/// A ball stretched to `half_m` along its axis, with tips.
+/// Returns the profile of a ball stretched to `half_m` along its axis, with tips.
 pub(super) fn ball_profile(radius_m: f64, half_m: f64, tip_m: f64) -> Profile {
     let num = 24;
     let point = |i: i32| {

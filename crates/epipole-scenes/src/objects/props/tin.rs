@@ -4,7 +4,7 @@ use super::{Props, placed};
 use crate::objects::body::{Body, Paint};
 
 impl Props {
-    /// A tea tin, `foot` in the middle of its lower face.
+    /// Creates a tea tin with `foot` in the middle of its lower face.
     pub(crate) fn tin(&self, foot: [f64; 3], size_m: [f64; 3], yaw_rad: f64) -> Vec<Body> {
         let name = "the tea tin";
         let side = Paint::new(&self.tin).glossy(0.9).lit(16, 24);

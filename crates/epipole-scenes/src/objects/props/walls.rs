@@ -1,4 +1,4 @@
-//! Things on walls: windows and pictures.
+//! Objects on walls: windows and pictures.
 
 use super::{PICTURE_DEPTH_M, Props};
 use crate::objects::body::{Body, Paint};
@@ -7,14 +7,14 @@ use crate::shape::{FRONT, RIGHT};
 use std::sync::Arc;
 
 impl Props {
-    /// Returns the support of a movable thing while its light is computed: the plane y = 0.
+    /// Returns the support of a movable object while its light is computed: the plane y = 0.
     pub(crate) fn slab(&self, width_m: f64, depth_m: f64) -> Body {
         let paint = Paint::new(&self.plaster).lit(1, 1);
         let center = [0.0, 0.02, 0.0];
         Body::cuboid("the table", [width_m, 0.04, depth_m], center, &paint).boxed()
     }
 
-    /// A window in a wall whose inside faces +x, `middle` on that wall.
+    /// Creates a window at `middle` of a wall that faces +x.
     pub(crate) fn window(&self, middle: [f64; 3], size_m: [f64; 2]) -> Body {
         let deep = 0.03;
         Body::cuboid(
@@ -26,7 +26,7 @@ impl Props {
         .painted(RIGHT, &Paint::new(&self.window).glowing(1.25))
     }
 
-    /// A framed picture that hangs on a wall, its painted face toward local −z.
+    /// Creates a framed picture on a wall, its painted face toward local −z.
     pub(crate) fn picture(
         &self,
         texture: &Arc<Texture>,

@@ -10,9 +10,9 @@ use epipole::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
-/// Near plane of the other camera, meters; nearer points are left out.
+/// Near plane of the other camera, meters; nearer points are dropped.
 pub(super) const NEAR_M: f32 = 0.02;
-/// Maximum side of the square of a pixel, pixels.
+/// Maximum side of the square drawn for a pixel, pixels.
 const LARGEST: f32 = 6.0;
 /// Enlargement of squares relative to a fronto-parallel surface, for slanted ones.
 const SLANT: f32 = 1.15;
@@ -21,8 +21,8 @@ const SLANT: f32 = 1.15;
 pub(super) struct Carry {
     map: Matrix3<f32>,
     shift: Vector3<f32>,
-    /// Epipole: projection of the other camera, pixels, clamped to the picture; and whether it is
-    /// in front.
+    /// Epipole: projection of the other camera, pixels, clamped to the picture; and whether that
+    /// camera is in front.
     epipole: (u32, u32),
     is_ahead: bool,
     /// Side of a pixel in the other picture at equal depth, pixels.
@@ -62,7 +62,7 @@ impl Carry {
         })
     }
 
-    /// Returns the warp for pixels of a thing that has moved in the world by `by`, meters.
+    /// Returns the warp for pixels of an object that has moved in the world by `by`, meters.
     pub(super) fn moved(self, to: &PosedCamera, by: &Vector3<f64>) -> Self {
         let shift = to.camera.intrinsics.matrix() * (to.cam_from_world.rotation * by);
         Self {
@@ -184,18 +184,17 @@ impl Way {
             let depth = along(2);
             let inverse = 1.0 / depth;
             let zoom = self.zoom * z * inverse;
-            // Not `f32::min`, which is a call.
+            // `f32::min` would be a call.
             let reach = zoom * SLANT;
             // Processors cast to signed integers in one instruction.
             let side = if reach < LARGEST { reach } else { LARGEST } as i32 + 1;
-            // A square reaches over the gap to the next one, which is drawn later and covers the
-            // rest.
+            // A square covers the gap to the next one, which is drawn later and covers the rest.
             let half = 0.5 * (zoom - 1.0);
             let first = |is_upward: bool| match is_upward {
                 true => 0.5 - half,
                 false => 1.5 + half - side as f32,
             };
-            // Squares beyond the left or upper edge are left out whole: they are small, and a draft
+            // Squares that cross the left or upper edge are dropped: they are small, and a draft
             // fills the edge.
             let left = along(0) * inverse + first(self.is_upward[0]);
             let top = along(1) * inverse + first(self.is_upward[1]);

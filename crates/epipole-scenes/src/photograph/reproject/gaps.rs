@@ -1,4 +1,4 @@
-//! A reprojected picture, its gaps and their filling.
+//! A reprojected picture and the filling of its gaps.
 
 use image::RgbImage;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub struct Reprojected {
     pub(super) image: RgbImage,
-    /// Red, green, blue and 255; 0 where no pixel was projected.
+    /// Red, green, blue and 255 for each pixel; 0 if no pixel was projected to it.
     pub(super) pixels: Vec<u32>,
     /// Gaps: runs of neighboring pixels in a row.
     pub(super) missing: Vec<Range<u32>>,
@@ -24,8 +24,8 @@ impl Reprojected {
         self.missing.iter().map(Range::len).sum()
     }
 
-    /// Returns the mask, row by row, of the pixels of a draft of `size` of the same view that
-    /// [`Reprojected::fill`] uses; in a larger draft, also those between.
+    /// Returns the mask, row by row, of the pixels that [`Reprojected::fill`] uses from a draft of
+    /// `size` of the same view; in a larger draft, also of those between them.
     pub fn wanted(&self, (width, height): (u32, u32)) -> Vec<bool> {
         let (own_width, own_height) = self.image.dimensions();
         let mut wanted = vec![false; width as usize * height as usize];
@@ -60,8 +60,8 @@ impl Reprojected {
         let columns: Vec<_> = (0..width).map(|u| between(u, width, draft_width)).collect();
         let draft = draft.as_raw().as_chunks::<3>().0;
         let draft: Vec<&[[u8; 3]]> = draft.chunks_exact(draft_width as usize).collect();
-        // Stretch the two draft rows around a row to its width and keep them while needed, so that
-        // mixing accesses memory in order.
+        // Stretches the two draft rows around a row to its width and keeps them while needed, so
+        // that mixing accesses memory in order.
         let mut stretched = [(); 2].map(|()| (usize::MAX, vec![0; 3 * width as usize]));
         let image: &mut [u8] = &mut self.image;
         for runs in by_rows(&self.missing, width) {
@@ -107,7 +107,7 @@ impl Reprojected {
         self.missing.clear();
     }
 
-    /// Makes the picture from the projected pixels. A gap one pixel wide takes its neighbor's
+    /// Builds the picture from the projected pixels. A gap one pixel wide takes its neighbor's
     /// color.
     pub(super) fn finish(&mut self) {
         let width = self.image.width() as usize;
@@ -119,7 +119,7 @@ impl Reprojected {
             runs: &mut self.missing,
         };
         for (index, (four, target)) in fours.iter().zip(target_fours).enumerate() {
-            // Projected pixels are opaque, and most of a picture is projected.
+            // Fast path: projected pixels are opaque, and most of a picture is projected.
             if (four[0] & four[1] & four[2] & four[3]) >> 24 != 0 {
                 for i in 0..4 {
                     target[i] = rgb(four[i]);

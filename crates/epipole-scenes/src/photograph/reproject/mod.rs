@@ -1,7 +1,7 @@
 //! Reprojection of photographs to another camera.
 //!
-//! Every pixel has a depth, so [`carry`] can project it into the other camera. Surfaces that only
-//! the other camera sees leave gaps, which [`gaps`] fills from a draft.
+//! Every pixel has a depth, so [`carry`] can project it into the other camera. Surfaces visible
+//! only to the other camera leave gaps, which [`gaps`] fills from a draft.
 
 mod carry;
 mod gaps;
@@ -15,27 +15,26 @@ use epipole::{Error, Result};
 use nalgebra::{Point3, Vector3};
 use std::ops::Range;
 
-/// A thing that has moved since a photograph was taken.
+/// An object that has moved since a photograph was taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moved {
     /// Its former center in the world, meters.
     pub center: Point3<f64>,
     /// Radius around its center that contains its surface, meters.
     pub radius_m: f64,
-    /// Radius around its former and its new center in which other surfaces are outdated, because
-    /// its shade has moved, meters.
+    /// Radius around its former and its new center within which other surfaces are outdated,
+    /// because its shade has moved, meters.
     pub stale_m: f64,
     /// Displacement, meters.
     pub by: Vector3<f64>,
 }
 
 impl Photograph {
-    /// Reprojects this photograph to the camera `to`, with gaps at surfaces that this one did not
-    /// see.
+    /// Reprojects this photograph to the camera `to`, with gaps at surfaces that it does not show.
     ///
-    /// * `from`: the camera that took it
+    /// * `from`: the camera of this photograph
     /// * `to`: another one, for a picture of the same size
-    /// * `moved`: a thing that has moved in between
+    /// * `moved`: an object that has moved since then
     ///
     /// Reflections and other view-dependent effects are unchanged.
     ///
@@ -105,7 +104,7 @@ impl Photograph {
             }
             carry.all(self, &depths, &mut target.pixels);
         }
-        // The moved thing is drawn last, as if nothing were in front of it.
+        // The moved object is drawn last, as if nothing were in front of it.
         let carry = carry.moved(to, &moved.by);
         for indices in carried.chunk_by(|a, b| a + 1 == *b && !b.is_multiple_of(size.0)) {
             let (u, v) = (indices[0] % size.0, indices[0] / size.0);
@@ -163,7 +162,7 @@ impl Photograph {
 }
 
 impl Moved {
-    /// Returns the outdated pixels, and the pixels of the thing itself.
+    /// Returns the outdated pixels, and the pixels of the object itself.
     fn find(&self, photograph: &Photograph, camera: &PosedCamera) -> (Vec<u32>, Vec<u32>) {
         let (width, height) = photograph.image.dimensions();
         let old = camera.cam_from_world * self.center;
@@ -213,7 +212,7 @@ fn bounds(
     let focal = [k.fu_px(), k.fv_px()];
     let center = k.principal_point();
     std::array::from_fn(|i| {
-        // Within the ball, the nearest depth moves its edges out most.
+        // Among depths within the ball, the nearest gives the outermost edges.
         let edge = |sign: f64| {
             let offset = middle[i] + sign * radius_m;
             let depth = if offset * sign > 0.0 {
@@ -287,7 +286,8 @@ mod tests {
             .map(|(_, (a, b))| (a.0, b.0))
     }
 
-    /// Asserts that the reprojection is close to a photograph from there, much closer than a draft.
+    /// Asserts that the reprojection is close to a photograph from the new camera, much closer than
+    /// a draft.
     #[test]
     fn it_looks_like_a_photograph_from_there() {
         let scene = Scene::still_life();
@@ -359,7 +359,7 @@ mod tests {
                 all += 1;
                 wrong += usize::from(a[0].abs_diff(b[0]) > 10);
             }
-            // At outlines, either neighbor is right.
+            // At outlines, either neighbor is correct.
             assert!(wrong * 100 < all * 6, "{index}: {wrong} of {all}");
         }
     }
@@ -470,8 +470,8 @@ mod tests {
         assert!(wrong * 8 < differs, "{wrong}, {differs}");
     }
 
-    /// Asserts that a longer focal length only enlarges: no pixel covers another, and inside there
-    /// is no gap.
+    /// Asserts that a longer focal length only enlarges: no pixel covers another, and there is no
+    /// gap inside.
     #[test]
     fn another_focal_length_zooms() {
         let scene = Scene::still_life();
