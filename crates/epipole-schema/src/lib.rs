@@ -1,4 +1,4 @@
-//! Types of structs and enums as data, from their serde implementations.
+//! Types of structs and enums as data, derived from their serde implementations.
 //!
 //! ```
 //! use epipole_schema::{Type, describe};
@@ -22,7 +22,7 @@ use serde::de::{
 };
 use std::fmt::{self, Display, Formatter};
 
-/// Type that serde reads.
+/// Type of a value as serde deserializes it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Type {
     /// `bool`.
@@ -35,13 +35,13 @@ pub enum Type {
     Text,
     /// Bytes.
     Bytes,
-    /// Nothing.
+    /// Unit.
     Null,
     /// Map with keys of any kind.
     Map,
-    /// A type that describes itself, or whose reading fails.
+    /// Type that describes itself, or whose deserialization fails.
     Unknown,
-    /// A value or nothing.
+    /// Optional value.
     Option(Box<Type>),
     /// Sequence or tuple, by the type of its first element.
     Sequence(Box<Type>),
@@ -53,13 +53,13 @@ pub enum Type {
 
 /// Describes a type.
 ///
-/// No value is read: a deserializer follows each path of fields and variants and fails with the
-/// type that it is asked for.
+/// Reads no value: a deserializer follows each path of fields and variants, and fails with the type
+/// requested there.
 pub fn describe<T: DeserializeOwned>() -> Type {
     explore::<T>(&mut Vec::new())
 }
 
-/// Type at a path: indices of fields and variants below `T`.
+/// Explores the type at a path, given as indices of fields and variants below `T`.
 fn explore<T: DeserializeOwned>(path: &mut Vec<usize>) -> Type {
     let Err(found) = T::deserialize(Probe(path)) else {
         return Type::Unknown;
@@ -86,7 +86,7 @@ fn explore<T: DeserializeOwned>(path: &mut Vec<usize>) -> Type {
     })
 }
 
-/// Type that serde asks for.
+/// Type requested by serde.
 #[derive(Debug)]
 enum Kind {
     Plain(Type),
@@ -100,12 +100,13 @@ enum Wrap {
     Sequence,
 }
 
-/// Type with the options and sequences around it, innermost first.
+/// Type with the enclosing options and sequences, innermost first.
 #[derive(Debug)]
 struct Found {
     kind: Kind,
     wraps: Vec<Wrap>,
-    /// Whether it is a field or variant: options and sequences around its struct are not its own.
+    /// Whether it is a field or variant, in which case options and sequences around its struct do
+    /// not belong to it.
     is_part: bool,
 }
 

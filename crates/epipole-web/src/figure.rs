@@ -9,7 +9,7 @@ use epipole_widgets::{Figure as Model, Snapshot, gallery};
 use image::RgbImage;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// All figures, JSON: `[{"name", "title", "help"}]`.
+/// Lists all figures as JSON: `[{"name", "title", "help"}]`.
 #[wasm_bindgen]
 pub fn figures() -> String {
     let listed = |entry: &gallery::Entry| Listed {
@@ -22,19 +22,19 @@ pub fn figures() -> String {
 
 /// A figure in some state, with its last drawn frame.
 ///
-/// Input is plain arguments, so that the module carries no JSON parser; output is JSON, which
-/// browsers parse faster than many calls across the border.
+/// Inputs are plain arguments, so that the module contains no JSON parser. Outputs are JSON, which
+/// browsers parse faster than many calls across the boundary.
 ///
-/// Widths are CSS pixels; places are CSS pixels from the top left corner of the picture laid out
-/// for the given width. Methods that change the state return a message for the reader if the figure
-/// refuses, otherwise nothing.
+/// Widths are in CSS pixels; positions are in CSS pixels from the top left corner of the picture
+/// laid out for the given width. Methods that change the state return a message for the reader if
+/// the figure refuses, otherwise nothing.
 #[wasm_bindgen]
 pub struct Figure {
     figure: Model,
     frame: Frame,
 }
 
-/// Memory location and size of the last frame.
+/// Address and size of the last frame.
 struct Frame {
     address: *const u8,
     width: u32,
@@ -62,10 +62,9 @@ impl Frame {
 
 #[wasm_bindgen]
 impl Figure {
-    /// A figure in its default state.
+    /// Creates a figure in its default state.
     ///
-    /// # Errors
-    /// A sentence with the names that exist.
+    /// # Errors A message with the names that exist.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Figure, String> {
         let figure = Model::new(name).map_err(|problem| problem.to_string())?;
@@ -75,18 +74,18 @@ impl Figure {
         })
     }
 
-    /// Title.
+    /// Returns the title.
     pub fn title(&self) -> String {
         self.figure.title().to_owned()
     }
 
-    /// Help for the reader.
+    /// Returns the help for the reader.
     pub fn help(&self) -> String {
         self.figure.help().to_owned()
     }
 
-    /// Applies parameters, keys and values in turn, to the state. Returns the invalid ones, JSON
-    /// `[{"unknown", "message"}]`.
+    /// Applies parameters, given as alternating keys and values, to the state. Returns the invalid
+    /// ones, JSON `[{"unknown", "message"}]`.
     pub fn apply(&mut self, parameters: Vec<String>) -> String {
         let pairs: Vec<(String, String)> = parameters
             .chunks_exact(2)
@@ -96,7 +95,7 @@ impl Figure {
         json(&problems.iter().map(Refused::from).collect::<Vec<_>>())
     }
 
-    /// Differences from the default state, JSON `[[key, value]]`.
+    /// Returns the differences from the default state, JSON `[[key, value]]`.
     pub fn state(&self) -> String {
         json(&self.figure.state())
     }
@@ -124,60 +123,60 @@ impl Figure {
         self.send(&Event::Press { id })
     }
 
-    /// Removes a handle, if the reader may.
+    /// Removes a handle, if the figure allows it.
     pub fn remove(&mut self, id: String) -> Option<String> {
         self.send(&Event::HandleRemoved { id })
     }
 
-    /// Moves a handle to a place in the world units of its panel.
+    /// Moves a handle to a position in the world units of its panel.
     pub fn place(&mut self, id: &str, x: f64, y: f64) -> Option<String> {
         self.send(&Event::moved(id, x, y))
     }
 
-    /// A click in a panel, at a place in its world units.
+    /// Clicks in a panel, at a position in its world units.
     pub fn click_in(&mut self, panel: &str, x: f64, y: f64) -> Option<String> {
         self.send(&Event::clicked(panel, x, y))
     }
 
-    /// The events that solve a challenge from the default state, JSON `[{"type", …}]`.
+    /// Returns the events that solve a challenge from the default state, JSON `[{"type", …}]`.
     pub fn solution(&self, challenge: &str) -> String {
         json(&self.figure.solution(challenge).unwrap_or_default())
     }
 
-    /// Returns to the default state.
+    /// Restores the default state.
     pub fn reset(&mut self) -> Option<String> {
         self.send(&Event::Reset)
     }
 
-    /// Time passes, seconds.
+    /// Advances the time by seconds.
     pub fn tick(&mut self, dt_s: f64) -> Option<String> {
         self.send(&Event::Tick { dt_s })
     }
 
-    /// True while the figure wants [`Figure::tick`].
+    /// Whether the figure needs [`Figure::tick`].
     pub fn is_running(&self) -> bool {
         self.figure.is_running()
     }
 
-    /// Everything to show beside the picture, JSON.
+    /// Returns everything to show beside the picture as JSON.
     pub fn snapshot(&mut self, width: f64) -> String {
         json(&Snapshot::of(&mut self.figure, width))
     }
 
-    /// The handle that a press at a place takes.
+    /// Returns the handle that a press at a position grabs.
     pub fn handle_at(&self, width: f64, x: f64, y: f64) -> Option<String> {
         let (handles, layout) = (self.figure.handles(), self.figure.layout(width));
         pointing::handle_at(&handles, &layout, (x, y)).map(|handle| handle.id.clone())
     }
 
-    /// Moves a handle to a place.
+    /// Moves a handle to a position.
     pub fn drag(&mut self, id: &str, width: f64, x: f64, y: f64) -> Option<String> {
         let layout = self.figure.layout(width);
         let event = pointing::drag(&self.handle(id)?, &layout, (x, y));
         self.send(&event)
     }
 
-    /// Moves a handle by steps of its own towards `left`, `right`, `up` or `down`.
+    /// Moves a handle by its own step size towards `left`, `right`, `up` or `down`.
     pub fn nudge(&mut self, id: &str, width: f64, towards: &str, steps: f64) -> Option<String> {
         let layout = self.figure.layout(width);
         let event = pointing::nudge(&self.handle(id)?, &layout, direction(towards)?, steps);
@@ -191,13 +190,13 @@ impl Figure {
         self.send(&event)
     }
 
-    /// A click at a place, on no handle.
+    /// Clicks at a position without a handle.
     pub fn click(&mut self, width: f64, x: f64, y: f64) -> Option<String> {
         let event = pointing::click(&self.figure.layout(width), (x, y))?;
         self.send(&event)
     }
 
-    /// Puts a photograph of the reader's own, rows of red, green, blue, alpha, into a slot.
+    /// Puts a photograph of the reader, rows of red, green, blue, alpha, into a slot.
     pub fn take_photo(
         &mut self,
         slot: &str,
@@ -216,18 +215,18 @@ impl Figure {
         refused.map(|problem| problem.to_string())
     }
 
-    /// Values of the state for code of readers, JSON `{name: value}`.
+    /// Returns values of the state for readers' code, JSON `{name: value}`.
     pub fn data(&self) -> String {
         json(&self.figure.data())
     }
 
-    /// The photograph that a panel shows: rows of red, green, blue. Empty without one.
+    /// Returns the photograph that a panel shows: rows of red, green, blue. Empty without one.
     pub fn photograph(&mut self, panel: &str) -> Vec<u8> {
         let photograph = self.figure.photograph(panel);
         photograph.map_or_else(Vec::new, RgbImage::into_raw)
     }
 
-    /// File that the reader can save besides the picture, as the snapshot offers it.
+    /// Returns the file offered in the snapshot for saving, besides the picture.
     pub fn file(&self) -> Vec<u8> {
         self.figure.file_bytes()
     }
@@ -237,17 +236,17 @@ impl Figure {
         self.figure.take_focal(slot, focal);
     }
 
-    /// Unique name of the long computation that the figure waits for.
+    /// Returns a unique name of the long computation that the figure waits for.
     pub fn job_key(&mut self) -> Option<String> {
         self.figure.job().map(|job| format!("{:016x}", job.key()))
     }
 
-    /// Input of that computation: the second argument of `compute`.
+    /// Returns the input of that computation, the second argument of `compute`.
     pub fn job_request(&mut self) -> Vec<u8> {
         self.figure.job().map_or_else(Vec::new, |job| job.request())
     }
 
-    /// Hands over the result of a computation; one that the figure no longer waits for is dropped.
+    /// Takes the result of a computation; a result that the figure no longer waits for is dropped.
     pub fn job_done(&mut self, key: &str, result: Vec<u8>) -> bool {
         self.end_job(key, Ok(result))
     }
@@ -274,8 +273,7 @@ impl Figure {
         self.keep(drawn.map_err(|problem| problem.to_string()))
     }
 
-    /// Draws a frame at full quality, however long it takes. A computation that the figure waits
-    /// for is not done.
+    /// Draws a frame at full quality, however long it takes, except for a pending computation.
     pub fn draw_sharp(&mut self, width: f64, scale: f64, theme: &str) -> Option<String> {
         let theme = theme.parse().unwrap_or(Theme::Light);
         let drawn = self.figure.draw_sharp(width, scale, theme);
@@ -286,23 +284,23 @@ impl Figure {
         self.keep(drawn.map_err(|problem| problem.to_string()))
     }
 
-    /// Address of the last frame: rows of opaque red, green, blue, alpha. It is valid until the
-    /// next call of any method.
+    /// Returns the address of the last frame: rows of opaque red, green, blue, alpha. Valid until
+    /// the next call of any method.
     pub fn pixels(&self) -> *const u8 {
         self.frame.address
     }
 
-    /// Pixels in a row of the last frame.
+    /// Returns the width of the last frame, device pixels.
     pub fn pixel_width(&self) -> u32 {
         self.frame.width
     }
 
-    /// Rows of the last frame.
+    /// Returns the height of the last frame, device pixels.
     pub fn pixel_height(&self) -> u32 {
         self.frame.height
     }
 
-    /// A fingerprint of the last frame that was drawn at full quality, hexadecimal.
+    /// Returns a hash of the last frame drawn at full quality, hexadecimal.
     pub fn frame_hash(&self) -> Option<String> {
         self.frame.hash.map(|hash| format!("{hash:016x}"))
     }
@@ -331,8 +329,8 @@ impl Figure {
         u64::from_str_radix(key, 16).is_ok_and(|key| self.figure.job_done(key, result))
     }
 
-    /// Changes the state by any event: for native callers, kept out of the module because each
-    /// event has a method of its own there.
+    /// Changes the state by any event. For native callers only, as the module has a method for each
+    /// event.
     pub fn send(&mut self, event: &Event) -> Option<String> {
         let refused = self.figure.update(event).err();
         refused.map(|problem| problem.to_string())
@@ -401,7 +399,7 @@ mod tests {
         assert!(figure.handle_at(760.0, x, y).is_some());
         assert_eq!(figure.drag(id, 760.0, x + 20.0, y - 10.0), None);
         let (moved_x, moved_y) = place(&snapshot(&mut figure)["handles"][0]);
-        // The handle's place has two digits, which is a fraction of a pixel.
+        // The handle's position has two decimals, which is a fraction of a pixel.
         assert!((moved_x - x - 20.0).abs() < 0.5 && (moved_y - y + 10.0).abs() < 0.5);
         assert_eq!(figure.nudge("no such handle", 760.0, "left", 1.0), None);
         assert_eq!(figure.nudge(id, 760.0, "sideways", 1.0), None);

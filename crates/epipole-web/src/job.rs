@@ -6,18 +6,17 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen]
 extern "C" {
-    /// Receiver of a computation's progress.
+    /// Callback for a computation's progress.
     pub type Listener;
 
-    /// Called with the share that is done, 0 to 1.
+    /// Reports the fraction done, 0 to 1.
     #[wasm_bindgen(method, structural)]
     fn progress(this: &Listener, share: f64);
 }
 
-/// Carries out a computation that a figure of this name waits for. To end it early, end its worker.
+/// Runs a computation for which a figure of this name waits. Terminating its worker cancels it.
 ///
-/// # Errors
-/// A sentence for the reader.
+/// # Errors A message for the reader.
 #[wasm_bindgen]
 pub fn compute(name: &str, request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
     let mut report = |share: f64| {

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::ser::Formatter;
 use std::io::{self, Write};
 
-/// A figure's entry in the list of all.
+/// A figure's entry in the list of all figures.
 #[derive(Serialize)]
 pub(crate) struct Listed {
     pub(crate) name: &'static str,
@@ -12,19 +12,19 @@ pub(crate) struct Listed {
     pub(crate) help: &'static str,
 }
 
-/// JSON of plain data of this crate.
+/// Serializes plain data of this crate as JSON.
 pub(crate) fn json<T: Serialize>(value: &T) -> String {
     let mut text = Vec::with_capacity(4096);
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, Plain);
-    // Only a map with keys that are no strings, or a failing `Serialize`, could fail; there is
-    // none.
+    // Serialization fails only for a map with keys that are not strings, or a failing `Serialize`;
+    // neither occurs.
     let written = value.serialize(&mut serializer);
     debug_assert!(written.is_ok());
     String::from_utf8(text).unwrap_or_default()
 }
 
-/// Numbers as the rest of the module writes them: a second printer of floating-point numbers, with
-/// its tables, would be a good part of the module.
+/// Formatter that prints numbers like the rest of the module: a second printer of floating-point
+/// numbers, with its tables, would take a considerable part of the module.
 struct Plain;
 
 impl Formatter for Plain {

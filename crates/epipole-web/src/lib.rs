@@ -1,12 +1,13 @@
-//! The bridge between the figures and a page.
+//! Bridge between the figures and a page.
 //!
-//! A page holds one [`Figure`] for each figure that it shows. Events go in as calls with plain
-//! arguments; controls, handles, readouts and challenges come out as JSON; a drawn frame is read
-//! where it lies in WebAssembly's memory. Everything here also runs natively, so that a script
-//! of events can be played on both sides and the answers compared letter by letter.
+//! A page creates one [`Figure`] for each figure that it shows. Events are calls with plain
+//! arguments; controls, handles, readouts and challenges are returned as JSON; a drawn frame is
+//! read in place from WebAssembly's memory. Everything here also runs natively, so that a script of
+//! events can be replayed on both sides and the outputs compared byte by byte.
 //!
-//! It becomes two modules, one for each feature, so that a page need not load what only workers
-//! run: `figures` has everything that a page calls, `jobs` the long computations alone.
+//! The crate is built as two modules, one for each feature, so that a page need not load code that
+//! only workers run: `figures` contains everything that a page calls, `jobs` only the long
+//! computations.
 
 #[cfg(feature = "figures")]
 mod figure;

@@ -1,4 +1,4 @@
-//! The message of a panic, for the page to show and log.
+//! Message of a panic, for the page to show and log.
 
 use std::cell::RefCell;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -7,13 +7,14 @@ thread_local! {
     static LAST: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Runs once when a page has loaded the module.
+/// Runs once after a page has loaded the module.
 #[wasm_bindgen(start)]
 pub fn start() {
     std::panic::set_hook(Box::new(|info| {
         let message = info.to_string();
         LAST.with(|last| {
-            // A panic while the message of another is being read is not worth a second one.
+            // If the previous message is being read, this one is dropped rather than panicking
+            // again.
             if let Ok(mut last) = last.try_borrow_mut() {
                 *last = Some(message);
             }
@@ -21,7 +22,7 @@ pub fn start() {
     }));
 }
 
-/// Returns and clears the message of the last panic: a page reads it after a call ended in a trap.
+/// Returns and clears the message of the last panic, which a page reads after a call has trapped.
 #[wasm_bindgen]
 pub fn take_panic() -> Option<String> {
     LAST.with(|last| last.try_borrow_mut().ok().and_then(|mut last| last.take()))
