@@ -1,4 +1,4 @@
-//! Challenges: goals that the reader reaches by operating the figure.
+//! Challenges: goals for the reader to reach by operating the figure.
 
 use super::event::Event;
 use serde::Serialize;
@@ -11,11 +11,11 @@ pub struct Challenge<M> {
     pub id: &'static str,
     /// The goal as a request to the reader.
     pub goal: &'static str,
-    /// A nudge for a reader who is stuck.
+    /// Hint for a reader who is stuck.
     pub hint: &'static str,
     /// One sentence on why the solution works: the lesson of the challenge.
     pub why: &'static str,
-    /// Whether the present state reaches the goal.
+    /// Whether the current state reaches the goal.
     pub check: fn(&M) -> bool,
     /// Events that lead from the default state to the goal.
     pub solution: fn() -> Vec<Event>,

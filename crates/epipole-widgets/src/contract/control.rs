@@ -1,4 +1,4 @@
-//! Controls: what a reader sets beside the picture. Each becomes a native input of the page.
+//! Controls beside the picture. Each becomes a native input of the page.
 
 use super::decimal::parse_decimal;
 use super::readout::{format_number, with_unit};
@@ -17,7 +17,7 @@ pub enum Place {
     Hidden,
 }
 
-/// A number that the reader slides.
+/// A number set by a slider.
 ///
 /// ```
 /// use epipole_widgets::contract::Slider;
@@ -33,28 +33,28 @@ pub struct Slider {
     pub label: &'static str,
     /// Unit after the value, such as "m"; empty for a pure number.
     pub unit: &'static str,
-    /// Smallest value.
+    /// Minimum value.
     pub min: f64,
-    /// Largest value.
+    /// Maximum value.
     pub max: f64,
-    /// Distance between neighboring values, counted from `min`.
+    /// Step between neighboring values, starting at `min`.
     pub step: f64,
-    /// Value at the start; it must make the figure's point.
+    /// Initial value; with it, the figure must make its point.
     pub default: f64,
-    /// Digits after the decimal point, enough to tell neighboring values apart.
+    /// Digits after the decimal point, enough to distinguish neighboring values.
     pub digits: usize,
     /// Placement on the page.
     pub place: Place,
 }
 
-/// Something that is on or off.
+/// A switch that is on or off.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Toggle {
     /// Permanent name.
     pub id: &'static str,
     /// Label shown to the reader.
     pub label: &'static str,
-    /// State at the start.
+    /// Initial state.
     pub default: bool,
     /// Placement on the page.
     pub place: Place,
@@ -69,13 +69,13 @@ pub struct Choice {
     pub label: &'static str,
     /// Permanent name and label of each option.
     pub options: &'static [(&'static str, &'static str)],
-    /// Index of the option at the start.
+    /// Index of the initial option.
     pub default: usize,
     /// Placement on the page.
     pub place: Place,
 }
 
-/// Something that happens when pressed.
+/// An action started by a press.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Button {
     /// Permanent name.
@@ -170,7 +170,7 @@ pub enum ControlKind {
 }
 
 impl Slider {
-    /// From 0 to 1 in hundredths, at 0, until the methods below say otherwise.
+    /// Creates a slider from 0 to 1 in steps of 0.01, initially 0.
     pub const fn new(id: &'static str, label: &'static str) -> Self {
         Self {
             id,
@@ -193,7 +193,7 @@ impl Slider {
             .more()
     }
 
-    /// Its smallest and largest value, and the distance between neighboring ones.
+    /// Sets the range.
     #[must_use]
     pub const fn range(self, min: f64, max: f64, step: f64) -> Self {
         Self {
@@ -204,42 +204,43 @@ impl Slider {
         }
     }
 
-    /// Its value at the start.
+    /// Sets the initial value.
     #[must_use]
     pub const fn at(self, default: f64) -> Self {
         Self { default, ..self }
     }
 
-    /// Digits after the decimal point.
+    /// Sets the number of digits after the decimal point.
     #[must_use]
     pub const fn digits(self, digits: usize) -> Self {
         Self { digits, ..self }
     }
 
-    /// The unit after its value.
+    /// Sets the unit after the value.
     #[must_use]
     pub const fn unit(self, unit: &'static str) -> Self {
         Self { unit, ..self }
     }
 
-    /// Folded away with what a reader seldom wants.
+    /// Folds it away with rarely used controls.
     #[must_use]
     pub const fn more(self) -> Self {
         let place = Place::More;
         Self { place, ..self }
     }
 
-    /// Part of the permalink only.
+    /// Hides it: it is part of the permalink only.
     #[must_use]
     pub const fn hidden(self) -> Self {
         let place = Place::Hidden;
         Self { place, ..self }
     }
 
-    /// The nearest value on the slider's grid.
+    /// Returns the nearest value on the slider's grid.
     pub fn snap(&self, value: f64) -> f64 {
         let steps = ((value.clamp(self.min, self.max) - self.min) / self.step).round();
-        // The last step may be shorter; printing and reading `digits` digits gives this number.
+        // The last step may be shorter. Rounded, so that the value equals its printed form when
+        // parsed.
         round_to_digits((self.min + steps * self.step).min(self.max), self.digits)
     }
 
@@ -264,7 +265,7 @@ impl Slider {
 }
 
 impl Toggle {
-    /// Off at the start.
+    /// Creates a toggle that is initially off.
     pub const fn new(id: &'static str, label: &'static str) -> Self {
         Self {
             id,
@@ -274,14 +275,14 @@ impl Toggle {
         }
     }
 
-    /// On at the start.
+    /// Makes it initially on.
     #[must_use]
     pub const fn on(self) -> Self {
         let default = true;
         Self { default, ..self }
     }
 
-    /// Folded away with what a reader seldom wants.
+    /// Folds it away with rarely used controls.
     #[must_use]
     pub const fn more(self) -> Self {
         let place = Place::More;
@@ -304,7 +305,7 @@ impl Toggle {
 }
 
 impl Choice {
-    /// The first option at the start.
+    /// Creates a choice with the first option selected.
     pub const fn new(
         id: &'static str,
         label: &'static str,
@@ -319,13 +320,13 @@ impl Choice {
         }
     }
 
-    /// The option with this index at the start.
+    /// Selects the initial option by its index.
     #[must_use]
     pub const fn at(self, default: usize) -> Self {
         Self { default, ..self }
     }
 
-    /// Folded away with what a reader seldom wants.
+    /// Folds it away with rarely used controls.
     #[must_use]
     pub const fn more(self) -> Self {
         let place = Place::More;
@@ -349,7 +350,7 @@ impl Choice {
 }
 
 impl Button {
-    /// A button under the picture.
+    /// Creates a button below the picture.
     pub const fn new(id: &'static str, label: &'static str, role: ButtonRole) -> Self {
         Self {
             id,
@@ -359,14 +360,14 @@ impl Button {
         }
     }
 
-    /// Folded away with what a reader seldom wants.
+    /// Folds it away with rarely used controls.
     #[must_use]
     pub const fn more(self) -> Self {
         let place = Place::More;
         Self { place, ..self }
     }
 
-    /// The button as a control; `pressed` while the animation that it starts is running.
+    /// Returns the button as a control; `pressed` while the animation that it starts is running.
     pub fn control(&'static self, enabled: bool, pressed: bool) -> Control {
         Control {
             id: self.id,

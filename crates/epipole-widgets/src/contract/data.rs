@@ -1,4 +1,4 @@
-//! Values of a figure's state for the code of readers: matches, matrices, cameras.
+//! Values of a figure's state for readers' code: matches, matrices, cameras.
 
 use epipole::camera::PosedCamera;
 use nalgebra::{Matrix3, Point2};
@@ -16,7 +16,7 @@ pub enum Datum {
     Number(f64),
     /// Points in the plane.
     Points(Vec<[f64; 2]>),
-    /// A matrix by row.
+    /// A matrix, row by row.
     Matrix([[f64; 3]; 3]),
     /// A pinhole camera with its pose.
     Camera(CameraData),
@@ -63,7 +63,7 @@ impl Datum {
         Self::Matrix(rows(matrix))
     }
 
-    /// Creates a camera; its lens is left out, since figures have none.
+    /// Creates a camera without its lens, since figures use none.
     pub fn camera(camera: &PosedCamera) -> Self {
         let (width, height) = (camera.camera.width, camera.camera.height);
         let intrinsics = &camera.camera.intrinsics;
@@ -91,7 +91,7 @@ fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {
     matrix.transpose().data.0
 }
 
-/// The matches of two images, as `pixels1` and `pixels2`.
+/// Returns the matches of two images, as `pixels1` and `pixels2`.
 pub(crate) fn match_data<'a>(
     matches: impl IntoIterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
 ) -> [(&'static str, Datum); 2] {

@@ -5,14 +5,14 @@ const EXACT: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
-/// Maximum number of significant digits read; `f64` keeps no more.
+/// Maximum number of significant digits read; `f64` holds no more.
 const MOST_DIGITS: u32 = 18;
 
 /// Parses a finite number: digits with an optional sign, point and exponent.
 ///
-/// `f64::from_str` is exact for seventeen digits, but brings a table of ten kilobytes that every
+/// `f64::from_str` is exact for seventeen digits, but needs a table of ten kilobytes that every
 /// page would download. This is equally exact up to fifteen digits and twenty-two zeros, more than
-/// a slider has; beyond that the last places may be off.
+/// any slider has; beyond that the last digits may be wrong.
 ///
 /// Source: Clinger 1990, "How to read floating point numbers accurately", the fast path.
 pub(crate) fn parse_decimal(text: &str) -> Option<f64> {
@@ -109,7 +109,7 @@ mod tests {
         ] {
             assert_eq!(parse_decimal(text), None, "{text}");
         }
-        // More digits and zeros than are exact.
+        // More digits and zeros than are read exactly.
         for text in [
             "0.30000000000000004",
             "123456789012345678901234",

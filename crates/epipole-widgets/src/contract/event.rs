@@ -1,4 +1,4 @@
-//! Events: the only way that a figure's state changes.
+//! Events, the only way to change a figure's state.
 
 use super::decimal::parse_decimal;
 use super::knob::Knob;
@@ -56,7 +56,7 @@ pub enum Event {
 }
 
 impl Event {
-    /// A slider, toggle or choice takes a value.
+    /// Sets a slider, toggle or choice.
     ///
     /// ```
     /// use epipole_widgets::contract::{Event, Slider};
@@ -71,18 +71,18 @@ impl Event {
         }
     }
 
-    /// A button is pressed.
+    /// Presses a button.
     pub fn press(id: &str) -> Self {
         Self::Press { id: id.to_owned() }
     }
 
-    /// A handle is moved to a place in the world units of its panel.
+    /// Moves a handle to a position in the world units of its panel.
     pub fn moved(id: &str, x: f64, y: f64) -> Self {
         let id = id.to_owned();
         Self::HandleMoved { id, x, y }
     }
 
-    /// A panel is clicked at a place in its world units.
+    /// Clicks in a panel at a position in its world units.
     pub fn clicked(panel: &str, x: f64, y: f64) -> Self {
         let panel = panel.to_owned();
         Self::Clicked { panel, x, y }
@@ -103,7 +103,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The value as a finite number.
+    /// Returns the value as a finite number.
     pub fn number(&self) -> Option<f64> {
         let number = match self {
             Self::Number(number) => *number,
@@ -113,7 +113,7 @@ impl Value {
         number.is_finite().then_some(number)
     }
 
-    /// The value as on or off; an attribute without a value is on.
+    /// Returns the value as a flag; an attribute without a value is on.
     pub fn flag(&self) -> Option<bool> {
         match self {
             Self::Flag(flag) => Some(*flag),

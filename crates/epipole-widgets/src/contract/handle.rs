@@ -58,13 +58,13 @@ impl Handle {
         }
     }
 
-    /// Sets the position in words.
+    /// Sets the position as text.
     #[must_use]
     pub fn told(self, value_text: String) -> Self {
         Self { value_text, ..self }
     }
 
-    /// Sets the step of an arrow key and the number of digits of the position.
+    /// Sets the step of the arrow keys and the number of digits of the position.
     #[must_use]
     pub fn step(self, step: [f64; 2], digits: usize) -> Self {
         Self {

@@ -2,7 +2,7 @@
 
 use super::control::{Choice, Slider, Toggle};
 
-/// One entry of a model's list of settings.
+/// An entry of a model's list of settings.
 #[derive(Debug, Clone, Copy)]
 pub enum Knob {
     /// A number.
@@ -13,7 +13,7 @@ pub enum Knob {
     Choice(&'static Choice),
 }
 
-/// A model's list of settings, in order, by the names of its sliders, toggles and choices.
+/// Lists a model's settings, in order, by the names of its sliders, toggles and choices.
 macro_rules! knobs {
     ($($knob:expr),+ $(,)?) => {
         &[$($knob.knob()),+]
@@ -50,21 +50,21 @@ impl Knob {
 }
 
 impl Slider {
-    /// As an entry of a model's list of settings.
+    /// Returns it as an entry of a model's list of settings.
     pub(crate) const fn knob(&'static self) -> Knob {
         Knob::Slider(self)
     }
 }
 
 impl Toggle {
-    /// As an entry of a model's list of settings.
+    /// Returns it as an entry of a model's list of settings.
     pub(crate) const fn knob(&'static self) -> Knob {
         Knob::Toggle(self)
     }
 }
 
 impl Choice {
-    /// As an entry of a model's list of settings.
+    /// Returns it as an entry of a model's list of settings.
     pub(crate) const fn knob(&'static self) -> Knob {
         Knob::Choice(self)
     }

@@ -1,4 +1,4 @@
-//! Layout of the picture: the one transform between world units and the page.
+//! Layout of the picture, with the only transform between world units and the page.
 
 use epipole_canvas::Rect;
 use nalgebra::Point2;
@@ -97,9 +97,9 @@ impl Panel {
     }
 }
 
-/// The widths that pictures are laid out for, CSS pixels: a phone, a column, a broad page. Other
-/// widths scale the picture of the next smaller one, so a poster has exactly the shape of the
-/// interactive picture.
+/// Widths for which pictures are laid out, CSS pixels: a phone, a column, a wide page. Other widths
+/// scale the picture of the next smaller one, so a poster has exactly the shape of the interactive
+/// picture.
 pub const WIDTHS: [f64; 3] = [360.0, 720.0, 1088.0];
 
 /// The picture's size and its panels, for one width of the page.
@@ -115,11 +115,10 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Returns the panel of this name.
+    /// Returns the panel with this id.
     ///
-    /// # Panics
-    /// If the view has no panel of this name; views name their own panels, and tests draw every
-    /// view.
+    /// # Panics If the view has no panel with this id; views name their own panels, and tests draw
+    /// every view.
     pub fn panel(&self, id: &str) -> &Panel {
         self.panels
             .iter()
@@ -127,7 +126,7 @@ impl Layout {
             .expect("the view lays out this panel")
     }
 
-    /// Returns the panels of these names, as [`Layout::panel`].
+    /// Returns the panels with these ids, as [`Layout::panel`].
     pub fn panels_named<const N: usize>(&self, ids: [&str; N]) -> [&Panel; N] {
         ids.map(|id| self.panel(id))
     }

@@ -1,5 +1,5 @@
-//! The contract of a figure: plain data from which controls, pages, posters, permalinks, tests and
-//! the command line are made.
+//! The contract of a figure: plain data for controls, pages, posters, permalinks, tests and the
+//! command line.
 
 mod challenge;
 mod control;

@@ -24,7 +24,7 @@ pub trait Model {
         Vec::new()
     }
 
-    /// Returns values of the state for code of readers. The names are permanent.
+    /// Returns values of the state for readers' code. The names are permanent.
     fn data(&self) -> Data {
         Data::new()
     }
@@ -41,32 +41,31 @@ pub trait Model {
 
     /// Applies an event: the only way to change the state. Values of controls arrive unchecked,
     /// positions of handles within their ranges and digits, clicks within their panel.
-    /// [`Event::Reset`] never arrives, since it makes a new model.
+    /// [`Event::Reset`] never arrives, since it creates a new model.
     ///
-    /// # Errors
-    /// A sentence for the reader; the state is unchanged.
+    /// # Errors A message for the reader; the state is unchanged.
     fn update(&mut self, event: &Event) -> Result<(), Problem>;
 
-    /// Restores from a permalink a handle that the reader had added; false if the id is not one of
-    /// these or there is no room for another.
+    /// Restores a handle added by the reader from a permalink; false if the id is not one of these
+    /// or there is no room for another.
     fn restore_handle(&mut self, _id: &str, _x: f64, _y: f64) -> bool {
         false
     }
 
-    /// True while the model wants [`Event::Tick`].
+    /// Returns whether the model needs [`Event::Tick`].
     fn is_running(&self) -> bool {
         false
     }
 
-    /// Returns the source of the next computation to request, if any.
+    /// Returns the source of the next job, if any.
     fn asking(&mut self) -> Option<&mut dyn Asking> {
         None
     }
 
-    /// Called when the answer to a request has arrived.
+    /// Called when the result of a job has arrived.
     fn answered(&mut self) {}
 
-    /// Returns the pending job of the current state; `None` once its result is there.
+    /// Returns the pending job of the current state; `None` once its result has arrived.
     fn job(&mut self) -> Option<&dyn Job> {
         self.asking()?.job()
     }
@@ -78,22 +77,21 @@ pub trait Model {
         }
     }
 
-    /// Returns whether it is to show photographs of the reader's own that have still to be chosen.
+    /// Returns whether it needs photographs that the reader has not chosen yet.
     fn wants_photos(&self) -> bool {
         false
     }
 
-    /// Takes the reader's own photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of
-    /// the permalink.
+    /// Takes the reader's photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of the
+    /// permalink.
     ///
-    /// # Errors
-    /// A sentence for the reader if the photograph cannot be used; the state is unchanged.
+    /// # Errors A message for the reader if the photograph cannot be used; the state is unchanged.
     fn take_photo(&mut self, _slot: &str, _photo: RgbImage) -> Result<(), Problem> {
         Ok(())
     }
 
     /// Takes the focal length from a photograph's metadata, in units of the photograph's longer
-    /// side. Called after [`Model::take_photo`], if at all; always finite and positive.
+    /// side. Called after [`Model::take_photo`] if known; always finite and positive.
     fn take_focal(&mut self, _slot: &str, _focal: f64) {}
 }
 
@@ -106,15 +104,15 @@ pub trait Declared: Model + Words + Sized + 'static {
     /// Instructions for the reader: pointer and keys, in one or two sentences.
     const HELP: &'static str;
 
-    /// Carries out a job.
+    /// Runs a job.
     const COMPUTE: Compute = |_, _| Ok(Vec::new());
     /// Goals for the reader.
     const CHALLENGES: &'static [Challenge<Self>] = &[];
-    /// The three-dimensional panels; each is shown while its handles are.
+    /// Three-dimensional panels; each is shown while its handles are.
     const SPACES: &'static [Space] = &[];
-    /// Slots for photographs of the reader's own.
+    /// Slots for photographs of the reader.
     const PHOTO_SLOTS: &'static [PhotoSlot] = &[];
 
-    /// Creates the default state, which must make the figure's point untouched.
+    /// Creates the default state, in which the figure must make its point.
     fn new() -> Self;
 }

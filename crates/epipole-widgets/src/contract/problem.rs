@@ -1,4 +1,4 @@
-//! Errors of figures, as sentences for the reader.
+//! Errors of figures, as messages for the reader.
 
 use epipole_canvas::canvas::BadSize;
 use serde::Serialize;
@@ -10,9 +10,9 @@ pub enum Problem {
     /// No figure has this name.
     #[error("there is no figure \"{name}\"; the figures are {known}")]
     UnknownFigure {
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names that exist, comma-separated.
+        /// Existing names, comma-separated.
         known: String,
     },
     /// The figure has no parameter of this name.
@@ -20,9 +20,9 @@ pub enum Problem {
     UnknownParameter {
         /// The figure's name.
         figure: &'static str,
-        /// The name asked for.
+        /// The requested name.
         name: String,
-        /// The names that exist, comma-separated.
+        /// Existing names, comma-separated.
         known: String,
     },
     /// The value is not valid for the parameter.
@@ -30,7 +30,7 @@ pub enum Problem {
     BadValue {
         /// The parameter's name.
         name: String,
-        /// The value given.
+        /// The rejected value.
         value: String,
         /// Valid values, in words.
         expected: String,
@@ -38,10 +38,10 @@ pub enum Problem {
     /// The picture cannot be drawn at this size.
     #[error(transparent)]
     BadSize(#[from] BadSize),
-    /// A computation elsewhere, such as in a worker of the page, failed with this sentence.
+    /// A computation elsewhere, such as in a worker of the page, failed.
     #[error("{sentence}")]
     Elsewhere {
-        /// Message of that failure.
+        /// Error message.
         sentence: String,
     },
     /// The computation behind the figure failed.

@@ -1,4 +1,4 @@
-//! Readouts: the numbers that a figure shows beside the picture.
+//! Readouts: numbers beside the picture.
 
 use serde::Serialize;
 
@@ -32,7 +32,7 @@ pub enum ReadoutValue {
 }
 
 impl Readout {
-    /// Creates a readout of a number; one that is missing or not finite reads "no value".
+    /// Creates a readout of a number; a missing or non-finite one is displayed as "no value".
     pub fn number(
         id: &'static str,
         label: &'static str,
@@ -71,7 +71,7 @@ impl Readout {
         Self::number(id, label, value as f64, 0, "")
     }
 
-    /// Creates a readout of words.
+    /// Creates a readout of a text.
     pub fn words(id: &'static str, label: &'static str, text: impl Into<String>) -> Self {
         let text = text.into();
         Self {
@@ -86,7 +86,7 @@ impl Readout {
 }
 
 impl Readout {
-    /// Replaces a missing number by these words.
+    /// Replaces a missing number by this text.
     ///
     /// ```
     /// use epipole_widgets::contract::Readout;

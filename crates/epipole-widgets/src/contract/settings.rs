@@ -1,20 +1,21 @@
-//! The present values of a model's sliders, toggles and choices.
+//! Current values of a model's sliders, toggles and choices.
 
 use super::control::{Choice, Control, Slider, Toggle};
 use super::event::{Event, Value};
 use super::knob::Knob;
 use super::problem::Problem;
 
-/// The values of a list of knobs, read by the knob itself, so that a misspelt name cannot compile.
+/// Values of a list of knobs, accessed by the knob itself, so that a misspelled name cannot
+/// compile.
 #[derive(Debug, Clone)]
 pub struct Settings {
     knobs: &'static [Knob],
-    /// A slider's value, 0 or 1 of a toggle, the index of a choice.
+    /// Value of a slider, 0 or 1 for a toggle, index for a choice.
     values: Vec<f64>,
 }
 
 impl Settings {
-    /// All knobs at their defaults.
+    /// Creates settings with all knobs at their defaults.
     pub fn new(knobs: &'static [Knob]) -> Self {
         let default = |knob: &Knob| match knob {
             Knob::Slider(slider) => slider.default,
@@ -29,16 +30,16 @@ impl Settings {
 
     fn raw(&self, id: &str) -> f64 {
         let index = self.knobs.iter().position(|knob| knob.id() == id);
-        // A knob outside the model's list is a mistake of the model; every model is built in tests.
+        // A knob outside the model's list is a bug; tests create every model.
         self.values[index.expect("the knob is in the model's list")]
     }
 
-    /// A slider's value.
+    /// Returns a slider's value.
     pub fn number(&self, slider: &'static Slider) -> f64 {
         self.raw(slider.id)
     }
 
-    /// A slider's value as a count.
+    /// Returns a slider's value as a count.
     pub fn count(&self, slider: &'static Slider) -> usize {
         self.raw(slider.id).max(0.0) as usize
     }
@@ -48,7 +49,7 @@ impl Settings {
         self.raw(toggle.id) != 0.0
     }
 
-    /// The index of the chosen option.
+    /// Returns the index of the chosen option.
     pub fn chosen(&self, choice: &'static Choice) -> usize {
         self.raw(choice.id) as usize
     }
@@ -58,7 +59,7 @@ impl Settings {
         choice.options[self.chosen(choice)].1
     }
 
-    /// The knobs with their values, in the model's order.
+    /// Returns the knobs with their values, in the model's order.
     pub fn controls(&self) -> Vec<Control> {
         let control = |(knob, value): (&Knob, &f64)| match knob {
             Knob::Slider(slider) => slider.with_value(*value),
@@ -75,7 +76,7 @@ impl Settings {
         controls
     }
 
-    /// Returns the same controls, enabled where `is_enabled` accepts their id.
+    /// Returns the same controls, enabled if `is_enabled` accepts their id.
     pub fn controls_enabled(&self, is_enabled: impl Fn(&str) -> bool) -> Vec<Control> {
         let mut controls = self.controls();
         for control in &mut controls {
@@ -84,11 +85,10 @@ impl Settings {
         controls
     }
 
-    /// Sets one knob, a slider snapped to its grid. Returns whether anything changed.
+    /// Sets one knob, snapping a slider to its grid. Returns whether anything changed.
     ///
-    /// # Errors
-    /// [`Problem::BadValue`] for a value of the wrong kind, outside the range or not finite.
-    /// An `id` that is not in the list is no error: `Ok(None)`.
+    /// # Errors [`Problem::BadValue`] for a value of the wrong kind, outside the range or not
+    /// finite. For an `id` that is not in the list, returns `Ok(None)`.
     pub fn set(&mut self, id: &str, value: &Value) -> Result<Option<bool>, Problem> {
         let Some(index) = self.knobs.iter().position(|knob| knob.id() == id) else {
             return Ok(None);
@@ -108,7 +108,7 @@ impl Settings {
                     )
                 };
                 let number = value.number().ok_or_else(|| bad(expected()))?;
-                // Half a step of grace: a permalink may hold a rounded value.
+                // Tolerates half a step, since a permalink may contain a rounded value.
                 let grace = slider.step / 2.0;
                 if !(slider.min - grace..=slider.max + grace).contains(&number) {
                     return Err(bad(expected()));

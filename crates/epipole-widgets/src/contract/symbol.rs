@@ -1,12 +1,12 @@
-//! Symbols: the letters of a chapter's formulas, tied to their marks in the picture.
+//! Symbols of a chapter's formulas, linked to their marks in the picture.
 
 use super::{Layout, Rect};
 use serde::Serialize;
 
-/// A mark in the picture that a letter of the chapter stands for.
+/// A mark in the picture for a symbol of the chapter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symbol {
-    /// The letter as written in formulas: `P`, `p`, `p'`, `ℓ'`, `e'`.
+    /// The symbol as written in formulas: `P`, `p`, `p'`, `ℓ'`, `e'`.
     pub name: &'static str,
     /// Name of its panel.
     pub panel: &'static str,

@@ -1,4 +1,4 @@
-//! The view of a figure: drawing, no mathematics beyond layout.
+//! The view of a figure: drawing, without mathematics beyond layout.
 
 use super::{Declared, Layout};
 use crate::canvas::Canvas;
@@ -32,19 +32,19 @@ pub trait View: Default + 'static {
     /// Draws the current state with its handles; the focus ring is the page's.
     fn draw(&mut self, model: &Self::Model, layout: &Layout, canvas: &mut Canvas);
 
-    /// Returns the photograph that a panel shows, for code of readers; `None` in other panels.
+    /// Returns the photograph that a panel shows, for readers' code; `None` in other panels.
     fn photograph(&mut self, _model: &Self::Model, _panel: &str) -> Option<RgbImage> {
         None
     }
 
-    /// Does a few milliseconds of the work of the first drawing ahead of time, such as painting the
-    /// textures of a scene; false when nothing is left to do. The pictures are the same without it.
+    /// Does a few milliseconds of work ahead of the first drawing, such as painting the textures of
+    /// a scene; false when done. The pictures are the same without it.
     fn prepare(&mut self, _model: &Self::Model) -> bool {
         false
     }
 
     /// Does a few milliseconds of work that improves the next drawing, such as a slice of a sharper
-    /// photograph; false when nothing is left to do.
+    /// photograph; false when done.
     fn refine(&mut self, _model: &Self::Model) -> bool {
         false
     }

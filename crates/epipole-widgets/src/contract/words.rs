@@ -2,7 +2,7 @@
 
 use super::Readout;
 
-/// A model's numbers and description. Implemented beside the model, which never calls it.
+/// A model's numbers and description. Implemented in a separate file, which the model never calls.
 pub trait Words {
     /// Returns the numbers beside the picture, all finite; two to four of them are
     /// [`main`](Readout::main).

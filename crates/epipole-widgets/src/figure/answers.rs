@@ -1,5 +1,5 @@
-//! A cache of job results: a book shows one computation in many states, widths and sentences, and
-//! tests repeat it.
+//! A cache of job results: a book shows one result in many states, widths and sentences, and tests
+//! repeat it.
 
 use super::Figure;
 use crate::contract::JobResult;
@@ -37,7 +37,7 @@ impl Answers {
         Self { known }
     }
 
-    /// Carries out a figure's pending jobs, or takes their results from the cache.
+    /// Runs a figure's pending jobs, or takes their results from the cache.
     pub fn finish(&self, figure: &mut Figure) {
         figure.finish_job_by(|name, job| {
             let place = self.place(name, job.key());

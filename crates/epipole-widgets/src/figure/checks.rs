@@ -1,13 +1,14 @@
-//! Validation of events before they reach a model: unknown names, bad numbers, positions outside.
+//! Validation of events before they reach a model: unknown names, invalid numbers, positions out of
+//! range.
 
 use super::{Figure, POSTER_WIDTH};
 use crate::contract::{Control, ControlKind, Event, Problem};
 
 impl Figure {
-    /// Applies an event. On an error the figure is unchanged.
+    /// Applies an event. After an error, the figure is unchanged.
     ///
-    /// # Errors
-    /// A sentence for the reader: an unknown name, a bad value, or a failed computation.
+    /// # Errors A message for the reader: an unknown name, an invalid value, or a failed
+    /// computation.
     pub fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {
             Event::Reset => {
@@ -75,7 +76,8 @@ impl Figure {
                 })
             }
             Event::Tick { dt_s } => {
-                // A page in the background reports minutes on its return; animations must not jump.
+                // A page in the background reports minutes when it returns; animations must not
+                // jump.
                 let dt_s = if dt_s.is_finite() {
                     dt_s.clamp(0.0, 0.1)
                 } else {

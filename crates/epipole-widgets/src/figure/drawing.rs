@@ -1,4 +1,4 @@
-//! From a figure to pixels.
+//! Drawing of a figure.
 
 use super::Figure;
 use crate::canvas::{BadSize, Canvas, Picture};
@@ -18,8 +18,7 @@ impl Figure {
 
     /// Draws the current state, `width` CSS pixels wide, at `scale` device pixels per CSS pixel.
     ///
-    /// # Errors
-    /// [`Problem::BadSize`] for an empty or too large picture.
+    /// # Errors [`Problem::BadSize`] for an empty or too large picture.
     pub fn draw(&mut self, width: f64, scale: f64, theme: Theme) -> Result<&Picture, Problem> {
         if !(1.0..=Canvas::MAX_SIDE).contains(&width) {
             return Err(BadSize { width, height: 0.0 }.into());
@@ -32,19 +31,19 @@ impl Figure {
         Ok(&self.picture)
     }
 
-    /// Does a few milliseconds of the work of the first drawing ahead of time; false when nothing
-    /// is left to do. A page calls it before the first drawing to keep its main thread responsive.
+    /// Does a few milliseconds of work ahead of the first drawing; false when done. A page calls it
+    /// before the first drawing to keep its main thread responsive.
     pub fn prepare(&mut self) -> bool {
         self.stage.prepare()
     }
 
-    /// Does a few milliseconds of work that improves the next drawing; false when nothing is left
-    /// to do. A page calls it while the reader is idle.
+    /// Does a few milliseconds of work that improves the next drawing; false when done. A page
+    /// calls it while the reader is idle.
     pub fn refine(&mut self) -> bool {
         self.stage.refine()
     }
 
-    /// Finishes the pending job and draws at full quality, as for a poster and in tests.
+    /// Finishes the pending job and draws at full quality, for posters and tests.
     ///
     /// # Errors
     /// As [`Figure::draw`].

@@ -1,7 +1,7 @@
-//! The public interface of a figure: a model and its view behind one type.
+//! The public interface of a figure, which combines a model and its view.
 //!
-//! Pages, posters, the command line and the tests all drive figures through [`Figure`]; nothing
-//! outside this crate sees a model or a view.
+//! Pages, posters, the command line and the tests all use figures through [`Figure`]; models and
+//! views are private to this crate.
 
 mod answers;
 mod checks;
@@ -30,7 +30,7 @@ pub struct Figure {
     entry: &'static Entry,
     stage: Box<dyn Stage>,
     picture: Picture,
-    /// Cached handles of the untouched figure for the controls of the last call; pages ask for the
+    /// Cached handles of the untouched figure for the controls of the last call: pages request the
     /// state after every frame, and controls rarely change.
     untouched: RefCell<Option<Untouched>>,
 }
@@ -83,7 +83,7 @@ impl Figure {
         self.stage.model().handles()
     }
 
-    /// Returns the three-dimensional panels that are shown now.
+    /// Returns the three-dimensional panels currently shown.
     pub fn spaces(&self) -> Vec<Space> {
         let handles = self.handles();
         let is_shown = |space: &&Space| handles.iter().any(|handle| handle.id == space.orbit);
@@ -96,12 +96,12 @@ impl Figure {
         self.stage.model().symbols()
     }
 
-    /// Returns values of the state for code of readers.
+    /// Returns values of the state for readers' code.
     pub fn data(&self) -> Data {
         self.stage.model().data()
     }
 
-    /// Returns the photograph that a panel shows, in its present quality, for code of readers.
+    /// Returns the photograph that a panel shows, in its current quality, for readers' code.
     pub fn photograph(&mut self, panel: &str) -> Option<RgbImage> {
         self.stage.photograph(panel)
     }
@@ -126,7 +126,7 @@ impl Figure {
         self.stage.words().describe()
     }
 
-    /// Returns the goals and whether each is reached.
+    /// Returns the goals with their status.
     pub fn challenges(&self) -> Vec<ChallengeStatus> {
         self.stage.challenges()
     }
@@ -136,7 +136,7 @@ impl Figure {
         self.stage.solution(challenge)
     }
 
-    /// Returns whether the figure wants [`Event::Tick`].
+    /// Returns whether the figure needs [`Event::Tick`].
     pub fn is_running(&self) -> bool {
         self.stage.model().is_running()
     }
@@ -146,7 +146,7 @@ impl Figure {
         self.stage.model_mut().job()
     }
 
-    /// Hands over the result of the job with this [`key`](Job::key). Returns false, and drops the
+    /// Takes the result of the job with this [`key`](Job::key). Returns false, and drops the
     /// result, if the figure no longer waits for it.
     pub fn job_done(&mut self, key: u64, result: JobResult) -> bool {
         let wanted = self.job().is_some_and(|job| job.key() == key);
@@ -156,7 +156,7 @@ impl Figure {
         wanted
     }
 
-    /// Carries out the pending jobs on the calling thread.
+    /// Runs the pending jobs on the calling thread.
     pub fn finish_job(&mut self) {
         self.finish_job_by(|name, job| {
             gallery::compute(name, &job.request(), &mut |_| ControlFlow::Continue(()))
@@ -174,20 +174,19 @@ impl Figure {
         }
     }
 
-    /// Returns the slots for the reader's own photographs.
+    /// Returns the slots for the reader's photographs.
     pub fn photo_slots(&self) -> &'static [PhotoSlot] {
         self.stage.photo_slots()
     }
 
-    /// Returns whether photographs of the reader's own have still to be chosen.
+    /// Returns whether the reader has not chosen all photographs yet.
     pub fn wants_photos(&self) -> bool {
         self.stage.model().wants_photos()
     }
 
-    /// Puts the reader's own photograph into a slot.
+    /// Puts a photograph of the reader into a slot.
     ///
-    /// # Errors
-    /// [`Problem::UnknownParameter`] for a slot that the figure lacks, or a sentence about the
+    /// # Errors [`Problem::UnknownParameter`] for an unknown slot, or a message about the
     /// photograph.
     pub fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         if self.photo_slots().iter().all(|known| known.id != slot) {
@@ -196,8 +195,8 @@ impl Figure {
         self.stage.model_mut().take_photo(slot, photo)
     }
 
-    /// Sets the focal length of the photograph in a slot, in units of its longer side, as its
-    /// metadata has it. Implausible values are ignored.
+    /// Sets the focal length of the photograph in a slot, in units of its longer side, from its
+    /// metadata. Implausible values are ignored.
     pub fn take_focal(&mut self, slot: &str, focal: f64) {
         let is_slot = self.photo_slots().iter().any(|known| known.id == slot);
         if is_slot && (0.1..100.0).contains(&focal) {

@@ -66,7 +66,7 @@ impl Figure {
         for (id, value) in controls {
             let id = id.clone();
             let value = Value::from(&**value);
-            // The values come from this figure, so they are accepted.
+            // The values come from this figure, so they are valid.
             let _ = stage.model_mut().update(&Event::Set { id, value });
         }
         Untouched {
@@ -86,7 +86,7 @@ impl Figure {
     }
 
     /// Applies parameters to the current state: controls first, then handles, then hidden controls.
-    /// Invalid parameters are skipped and their problems returned.
+    /// Invalid parameters are skipped; their problems are returned.
     pub fn apply(&mut self, parameters: &[(String, String)]) -> Vec<Problem> {
         let mut problems = Vec::new();
         let rank = |figure: &Self, key: &str| {

@@ -4,7 +4,7 @@ use crate::contract::Handle;
 
 /// State of a figure before the reader moves a handle.
 pub(super) struct Untouched {
-    /// The visible controls that differ from the default state.
+    /// Visible controls that differ from the default state.
     pub(super) controls: Vec<(String, String)>,
     pub(super) handles: Vec<Handle>,
 }
