@@ -1,4 +1,4 @@
-//! The list of all figures. A new figure is a folder here and a line in the list.
+//! List of all figures. A new figure is a folder here and a line in the list.
 
 use crate::contract::{Compute, Declared, JobResult, Problem, Progress, View};
 use crate::stage::{self, Stage};
@@ -70,11 +70,11 @@ struct Worker {
     compute: Compute,
 }
 
-/// Makes separate lists of figures and of computations, so that a wasm module without one of them
-/// leaves its code out.
+/// Defines separate lists of figures and of computations, so that a wasm module without one of them
+/// does not contain its code.
 macro_rules! figures {
     ($($view:ty),* $(,)?) => {
-        /// Every figure, in the order of the book.
+        /// All figures, in the order of the book.
         pub static FIGURES: &[Entry] = &[$(entry::<$view>()),*];
 
         static WORKERS: &[Worker] = &[$(worker::<$view>()),*];
@@ -149,10 +149,9 @@ const fn worker<V: View>() -> Worker {
     }
 }
 
-/// Returns the figure of this name.
+/// Returns the figure with this name.
 ///
-/// # Errors
-/// [`Problem::UnknownFigure`], with the names that exist.
+/// # Errors [`Problem::UnknownFigure`], with the existing names.
 pub fn find(name: &str) -> Result<&'static Entry, Problem> {
     let mut figures = FIGURES.iter();
     figures
@@ -160,10 +159,9 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
         .ok_or_else(|| unknown(name, FIGURES.iter().map(|entry| entry.name)))
 }
 
-/// Carries out a job of the figure `name`. It needs no figure, so a worker can do it.
+/// Runs a job of the figure `name`. It needs no figure, so a worker can run it.
 ///
-/// # Errors
-/// [`Problem::UnknownFigure`], or a sentence about the data.
+/// # Errors [`Problem::UnknownFigure`], or a message about the data.
 pub fn compute(name: &str, request: &[u8], progress: Progress<'_>) -> JobResult {
     let worker = WORKERS.iter().find(|worker| worker.name == name);
     let worker = worker.ok_or_else(|| unknown(name, WORKERS.iter().map(|worker| worker.name)))?;
@@ -177,7 +175,7 @@ fn unknown(name: &str, known: impl Iterator<Item = &'static str>) -> Problem {
     }
 }
 
-/// The template of `make new-figure`, compiled to keep it valid.
+/// Template of `make new-figure`, compiled to keep it valid.
 #[cfg(test)]
 #[path = "../scaffold/mod.rs"]
 mod new_figure;

@@ -1,4 +1,4 @@
-//! `bundle-adjustment`: disturbed cameras and points, and the loop that corrects all of them.
+//! `bundle-adjustment`: perturbed cameras and points, and the loop that corrects them.
 
 mod model;
 mod question;

@@ -1,7 +1,7 @@
-//! Disturbance of cameras and points, step of the adjustment, and viewpoint.
+//! Perturbation of cameras and points, step of the adjustment, and viewpoint.
 //!
-//! The job answers with all steps at once. The number of steps taken is a setting, so a permalink
-//! shows the same step.
+//! The job returns all steps at once. The number of steps taken is a setting, so a permalink shows
+//! the same step.
 
 use super::question::{MAX_STEPS, Question, State};
 use crate::contract::{
@@ -54,7 +54,7 @@ pub(crate) struct BundleAdjustment {
     settings: Settings,
     pub(super) orbit: Orbit,
     house: Option<House>,
-    /// Feature of the ridge's end in the photograph shown, pixels.
+    /// Feature at the end of the ridge in the photograph shown, pixels.
     pub(super) mark: Probe,
     pub(super) asked: Computation<Question>,
     running: Running,
@@ -153,7 +153,7 @@ impl Model for BundleAdjustment {
         if let Some(answer) = self.asked.answer() {
             for control in controls.iter_mut().filter(|control| control.id == STEPS.id) {
                 control.value_text = format!("{} of {}", self.num_taken(), answer.num_steps());
-                // The slider ends where the loop has ended.
+                // The slider ends at the last step of the loop.
                 let end = answer.num_steps().max(1) as f64;
                 if let ControlKind::Slider {
                     value,
@@ -334,7 +334,7 @@ mod tests {
         let model: BundleAdjustment = settled(&[]);
         let answer = model.asked.answer().unwrap();
         let num_points = answer.features.len();
-        // One feature has no noise; the seven gauge freedoms change nothing.
+        // One feature is free of noise; the seven gauge freedoms have no effect.
         let freedoms = 6.0 * 4.0 + 3.0 * num_points as f64 - 7.0;
         let numbers = 2.0 * answer.num_observations as f64;
         let expected = 2.0 * (numbers - 2.0 - freedoms) / numbers;

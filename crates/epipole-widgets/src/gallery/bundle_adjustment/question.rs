@@ -19,13 +19,13 @@ pub(super) const MAX_STEPS: usize = 24;
 const COST_TOLERANCE: f64 = 1e-5;
 /// Width of Huber's loss, pixels.
 const HUBER_PX: f64 = 2.0;
-/// Rotation of a camera at disturbance 1, radians (standard deviation per axis).
+/// Rotation of a camera for a perturbation of 1, radians (standard deviation per axis).
 const TURN_RAD: f64 = 0.5;
 
-/// Everything that the answer depends on.
+/// All inputs of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
-    /// Disturbance of cameras and points at the start, relative to the width of the house.
+    /// Perturbation of cameras and points at the start, relative to the width of the house.
     pub(super) disturbance: f64,
     /// Standard deviation of each coordinate of a feature, pixels.
     pub(super) noise_px: f64,
@@ -38,7 +38,7 @@ pub(super) struct Question {
     pub(super) seed: u64,
 }
 
-/// The start or a trial step, with the cameras and points after it in the frame of the truth.
+/// The start or a trial step, with the cameras and points after it in the ground-truth frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct State {
     /// ½ Σ ρ(‖r‖²), square pixels.
@@ -66,7 +66,7 @@ pub(super) struct Feature {
 /// Steps of the adjustment, and the features shown.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
-    /// One for each point of the house.
+    /// Features, one for each point of the house.
     pub(super) features: Vec<Feature>,
     pub(super) num_observations: usize,
     pub(super) converged: bool,
@@ -164,9 +164,9 @@ impl Question {
     }
 
     /// Returns the features of the photograph shown, and a bundle of noisy observations with
-    /// disturbed cameras and points.
+    /// perturbed cameras and points.
     fn disturbed(&self, house: &House) -> (Vec<Feature>, Bundle) {
-        // Noise and wrong features must not change when the disturbance does.
+        // Noise and outliers must not depend on the perturbation.
         let mut noise = Random::new(1000 + self.seed);
         let mut chance = Random::new(2000 + self.seed);
         let mut features = Vec::new();
@@ -185,7 +185,7 @@ impl Question {
                     _ if is_wrong => elsewhere,
                     _ if is_mark => Point2::new(self.mark.0, self.mark.1),
                     Ok(pixel) => pixel + off,
-                    // The house is in front of every camera.
+                    // The house is in front of all cameras.
                     Err(_) => continue,
                 };
                 bundle.observations.push(BundleObservation {
@@ -216,7 +216,7 @@ impl Question {
     }
 }
 
-/// Returns the state after alignment to the truth by the best similarity, because photographs fix
+/// Returns the state after the best similarity alignment to the truth, since photographs determine
 /// neither position, rotation nor scale of the world (seven freedoms).
 fn aligned(bundle: &Bundle, house: &House) -> Result<State, Error> {
     let true_from_found = align_points(&bundle.points, &house.points, AlignmentKind::Similarity)?;

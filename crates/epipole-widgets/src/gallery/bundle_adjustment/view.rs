@@ -1,4 +1,4 @@
-//! House and cameras in space, one of the photographs with its errors, and the curves of the loop.
+//! House and cameras in 3D, one of the photographs with its errors, and the curves of the loop.
 
 use super::model::BundleAdjustment;
 use super::question::State;
@@ -15,7 +15,7 @@ use nalgebra::{Point2, Point3};
 
 /// Gap between a panel and the legend below it, CSS pixels.
 const LEGEND_GAP: f64 = 6.0;
-/// Center and radius of the scene in view: the house and the cameras in front of it.
+/// Center and radius of the visible scene: the house and the cameras in front of it.
 const SUBJECT: Subject = Subject {
     middle: Point3::new(0.1, -0.15, -0.75),
     radius: 1.85,
@@ -119,7 +119,7 @@ impl View for BundleAdjustmentView {
             layout.width
         };
         let top = photo.rect.bottom() + LEGEND_GAP;
-        // As much margin on the right as on the left.
+        // The margin on the right equals that on the left.
         legend::draw(canvas, &LEGEND, right + left, left, top);
         draw_plots(model, layout, canvas);
         if let Some(problem) = model.asked.problem() {
@@ -258,7 +258,7 @@ fn draw_plots(model: &BundleAdjustment, layout: &Layout, canvas: &mut Canvas) {
             continue;
         };
         plot::draw_now(canvas, panel, model.num_taken() as f64);
-        // Values beyond the axis, and zero, are clamped to its edge.
+        // Zero and values beyond the axis are clamped to its ends.
         let (low, high) = (panel.y_axis.end, panel.y_axis.start);
         let place =
             |(step, state): (usize, &State)| (step as f64, values[index](state).clamp(low, high));

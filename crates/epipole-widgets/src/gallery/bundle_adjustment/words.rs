@@ -46,7 +46,7 @@ fn values(model: &BundleAdjustment) -> Option<[String; 8]> {
 
 impl Words for BundleAdjustment {
     fn readouts(&self) -> Vec<Readout> {
-        // The rows are there before the answer, so that the layout does not jump.
+        // The rows exist before the result, so that the layout does not jump.
         let unknown = self.asked.missing();
         let found = values(self).unwrap_or_else(|| ROWS.map(|_| unknown.to_owned()));
         let rows = ROWS.into_iter().zip(found).enumerate();

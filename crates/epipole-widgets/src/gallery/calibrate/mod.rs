@@ -1,4 +1,4 @@
-//! `calibrate`: ten photographs of a board, and what each of them tells about the camera.
+//! `calibrate`: ten photographs of a board, and the contribution of each to the calibration.
 
 mod model;
 mod question;

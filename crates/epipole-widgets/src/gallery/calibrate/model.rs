@@ -1,4 +1,4 @@
-//! Which of ten views are used, and the camera that they give.
+//! Selection of ten views, and the camera calibrated from them.
 
 use super::question::{Answer, Found, NUM_VIEWS, Question};
 use crate::contract::{
@@ -7,12 +7,12 @@ use crate::contract::{
 };
 use crate::kit::question::{Computation, carry_out};
 
-/// The views that are used, a bit each.
+/// Bit mask of the views used.
 const VIEWS: Slider = Slider::new("views", "Views used")
     .range(0.0, 1023.0, 1.0)
     .at(1023.0)
     .hidden();
-/// Sets of views; the last one is what the reader's clicks left.
+/// Sets of views; the last one is the result of the reader's clicks.
 const SET: Choice = Choice::new(
     "set",
     "Views",
@@ -24,7 +24,7 @@ const SET: Choice = Choice::new(
         ("own", "Your choice"),
     ],
 );
-/// Views of each set but the last, a bit each.
+/// Bit masks of all sets but the last.
 const SETS: [u16; 4] = [1023, 0b00_0000_0111, 0b00_0111_1010, 0b11_1100_0000];
 const KNOBS: &[Knob] = knobs![SET, VIEWS];
 
@@ -50,7 +50,7 @@ impl Calibrate {
         self.views().count_ones() as usize
     }
 
-    /// Returns the camera found, or a sentence; `None` while it is computed.
+    /// Returns the calibrated camera, or an error message; `None` while it is computed.
     pub(super) fn found(&self) -> Option<Result<&Found, &str>> {
         let answer: Option<&Answer> = self.asked.answer();
         let answer = answer.filter(|_| !self.asked.is_waiting())?;

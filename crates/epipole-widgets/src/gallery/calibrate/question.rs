@@ -1,4 +1,5 @@
-//! The job of `calibrate`: photographs of a board, its corners, and the camera from some of them.
+//! The job of `calibrate`: photographs of a board, its corners, and the camera calibrated from some
+//! of them.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
@@ -17,24 +18,24 @@ use std::sync::OnceLock;
 
 /// Size of the photographs, pixels.
 pub(super) const SIZE: (u32, u32) = (512, 384);
-/// Size of the photographs as they are shown, pixels.
+/// Size at which the photographs are shown, pixels.
 const SHOWN_SIZE: (u32, u32) = (256, 192);
 pub(super) const NUM_VIEWS: usize = 10;
 /// Columns and rows of the map of errors.
 pub(super) const CELLS: (u32, u32) = (32, 24);
 /// Focal length of the camera, pixels.
 pub(super) const FOCAL_PX: f64 = 480.0;
-/// Standard deviation of the noise, white being 1.
+/// Standard deviation of the noise, for white = 1.
 const NOISE: f64 = 0.02;
 const SQUARE_M: f64 = 0.03;
 
-/// The views that are used, a bit each.
+/// Bit mask of the views used.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) views: u16,
 }
 
-/// The camera that some views give.
+/// Camera calibrated from some views.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     pub(super) focal_px: f64,
@@ -48,7 +49,7 @@ pub(super) struct Found {
     pub(super) errors_px: Vec<f32>,
 }
 
-/// Photographs, corners, and the camera or a sentence.
+/// Photographs, corners, and the camera or an error message.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photographs: Vec<Picture>,
@@ -57,7 +58,7 @@ pub(super) struct Answer {
     pub(super) found: Result<Found, String>,
 }
 
-/// Photographs with their boards, taken once.
+/// Photographs with their boards, cached.
 struct Taken {
     photographs: Vec<GrayImage>,
     views: Vec<Option<BoardView>>,
@@ -139,7 +140,7 @@ fn pose(index: usize) -> RigidTransform {
     let ([about_x, about_y], middle) = POSES[index];
     let turn = Vector3::new(about_x.to_radians(), about_y.to_radians(), 0.0);
     let turned = RigidTransform::rotation(turn);
-    // Marks are measured from the first corner; the middle is 3.5 and 2.5 squares away.
+    // Marks are measured from the first corner; the center is 3.5 and 2.5 squares away.
     let middle_in_board = Vector3::new(3.5 * SQUARE_M, 2.5 * SQUARE_M, 0.0);
     RigidTransform::from_parts(
         (Vector3::from(middle) - turned.rotation * middle_in_board).into(),
@@ -147,7 +148,7 @@ fn pose(index: usize) -> RigidTransform {
     )
 }
 
-/// Takes the photographs and finds their boards, on the first call.
+/// Renders the photographs and finds their boards, on the first call.
 fn taken(board: &Board, progress: Progress<'_>) -> Result<&'static Taken, Error> {
     static TAKEN: OnceLock<Taken> = OnceLock::new();
     if let Some(taken) = TAKEN.get() {
@@ -182,8 +183,8 @@ fn found(board: &Board, views: &[Option<BoardView>]) -> Result<Found, Error> {
     })
 }
 
-/// Returns the distances of the projections of true rays from their pixels. Their mean is left
-/// out: a turned camera would give it, and the poses of the boards take it up.
+/// Returns the distances of the projections of true rays from their pixels. Their mean is
+/// subtracted: it is equivalent to a rotation of the camera, which the poses of the boards absorb.
 fn errors_px(truth: &Camera, found: &Camera) -> Vec<f32> {
     let (columns, rows) = CELLS;
     let mut offsets: Vec<Option<Vector2<f64>>> = Vec::new();

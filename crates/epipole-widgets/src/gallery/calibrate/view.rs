@@ -1,4 +1,4 @@
-//! The photographs of the board with their corners, and a map of the errors of the camera found.
+//! Photographs of the board with their corners, and an error map of the calibrated camera.
 
 use super::model::{Calibrate, VIEW_IDS};
 use super::question::{Answer, CELLS, Found, SIZE};
@@ -15,9 +15,9 @@ fn columns(width: f64) -> usize {
 }
 /// Gap between photographs, CSS pixels.
 const BETWEEN: f64 = 6.0;
-/// Room for the color bar, CSS pixels.
+/// Width of the color bar, CSS pixels.
 const LEGEND: f64 = 34.0;
-/// Error of the brightest color, pixels.
+/// Error at the end of the color scale, pixels.
 const MOST_PX: f64 = 4.0;
 const CORNER: Role = Role::Series(1);
 
@@ -100,7 +100,7 @@ fn draw_view(model: &Calibrate, answer: &Answer, index: usize, panel: &Panel, ca
     canvas.stroke_rect(rect, Stroke::solid(Role::Ink, 1.5));
 }
 
-/// Draws the errors as colors, and the corners of the views that are used.
+/// Draws the errors as colors, and the corners of the views used.
 fn draw_map(model: &Calibrate, answer: &Answer, found: &Found, panel: &Panel, canvas: &mut Canvas) {
     let theme = canvas.theme();
     let (columns, rows) = CELLS;

@@ -20,7 +20,7 @@ const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = knobs![WIDTH, COUNT, SEED];
 const NOISE_PX: f64 = 0.5;
 
-/// The root mean square of each column of the equations.
+/// Root mean square of each column of the equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sizes(pub(super) [f64; 9]);
 
@@ -79,7 +79,7 @@ pub(crate) struct ColumnSizes {
 }
 
 impl ColumnSizes {
-    /// Returns the sizes, or a sentence on why there are none.
+    /// Returns the sizes, or a message why there are none.
     pub(super) fn both(&self) -> Result<&Both, &str> {
         self.both.as_ref().map_err(String::as_str)
     }
@@ -177,7 +177,7 @@ mod tests {
         let before = *model.both().unwrap();
         model.update(&Event::set(&WIDTH, 1280.0)).unwrap();
         let after = *model.both().unwrap();
-        // Twice the pixels: products are four times as large.
+        // At twice the pixel coordinates, products are four times as large.
         assert!((after.raw.0[0] / before.raw.0[0] - 4.0).abs() < 1e-9);
         assert!((after.raw.0[2] / before.raw.0[2] - 2.0).abs() < 1e-9);
         for (one, other) in after.normalized.0.iter().zip(before.normalized.0) {

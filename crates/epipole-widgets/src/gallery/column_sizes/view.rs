@@ -58,7 +58,8 @@ impl View for ColumnSizesView {
     }
 }
 
-/// Draws a stem from 1 to each size, shifted by `beside` columns from the name (negative: left).
+/// Draws a stem from 1 to each size, shifted by `beside` columns from the column's name (negative:
+/// left).
 fn draw_sizes(
     sizes: &Sizes,
     (role, shape): (Role, Shape),

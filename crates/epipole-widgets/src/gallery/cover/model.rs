@@ -20,7 +20,7 @@ const STEP: Choice = Choice::new(
     ],
 )
 .at(NUM_STEPS - 1);
-/// Number of steps played, the last one possibly in part.
+/// Number of steps played, the last one possibly only partly.
 const TIME: Slider = Slider::new("time", "Steps told")
     .range(0.0, NUM_STEPS as f64, 0.01)
     .at(NUM_STEPS as f64)
@@ -55,7 +55,7 @@ impl Cover {
         (self.settings.number(&TIME) - step as f64).clamp(0.0, 1.0)
     }
 
-    /// Sets the number of steps played, the last one possibly in part.
+    /// Sets the number of steps played, the last one possibly only partly.
     fn tell(&mut self, steps: f64) {
         self.settings.slide(&TIME, steps);
         let told = self.settings.number(&TIME).ceil().max(1.0) as usize;

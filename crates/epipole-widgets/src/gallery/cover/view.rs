@@ -1,4 +1,4 @@
-//! The space view: cameras with their photographs, and the scene as far as it is reconstructed.
+//! 3D view: cameras with their photographs, and the scene as far as it is reconstructed.
 
 use super::model::{Cover, NUM_STEPS};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -14,7 +14,7 @@ use crate::theme::Role;
 use epipole::camera::PosedCamera;
 use nalgebra::{Isometry3, Point2, Point3};
 
-/// Center and radius of the scene in view, in the frame of camera 1 (baseline 1).
+/// Center and radius of the visible scene, in the frame of camera 1 (baseline 1).
 const SUBJECT: Subject = Subject {
     middle: Point3::new(0.55, -0.38, 2.7),
     radius: 1.85,
@@ -139,7 +139,7 @@ fn draw_points(
         space.on_picture(cameras[index], pixel, PICTURE)
     };
     let found = canvas.theme().color(Role::Candidate);
-    // With matches only matched features are shown, and with the cloud none.
+    // With matches only matched features are shown, and with the cloud no features.
     if model.share(1) > 0.0 && model.share(2) < 1.0 {
         for (index, pixels) in answer.keypoints.iter().enumerate() {
             let shown: Vec<_> = spread(pixels, MOST_DOTS).collect();
@@ -191,7 +191,7 @@ fn draw_rays(model: &Cover, motion: &Motion, cameras: [&PosedCamera; 2], space: 
     }
 }
 
-/// Returns a camera on the way from the first pose to the second.
+/// Interpolates between two camera poses.
 fn on_the_way(first: &PosedCamera, second: &PosedCamera, share: f64) -> PosedCamera {
     let (one, two) = (first.cam_from_world, second.cam_from_world);
     let rotation = one.rotation.slerp(&two.rotation, share);

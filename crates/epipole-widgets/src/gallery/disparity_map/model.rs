@@ -30,7 +30,7 @@ const BASELINE: Slider = Slider::new("baseline", "Baseline")
 const CHECKS: Toggle = Toggle::new("checks", "Drop uncertain").on();
 const KNOBS: &[Knob] = knobs![METHOD, WINDOW, RANGE, BASELINE, CHECKS];
 
-/// Starts on the mug, in view of both cameras.
+/// Initially on the mug, visible to both cameras.
 const PROBE: Probe = Probe::new("probe", "left", "Probe")
     .over(SIZE)
     .step(2.0)
@@ -43,7 +43,7 @@ pub(crate) struct DisparityMap {
     pub(super) asked: Computation<Question>,
 }
 
-/// Disparity found and true disparity at the probe, pixels.
+/// Computed and true disparity at the probe, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Probed {
     pub(super) found_px: Option<f32>,

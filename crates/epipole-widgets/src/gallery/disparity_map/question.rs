@@ -10,7 +10,7 @@ use epipole::stereo::{DisparityFilter, DisparityImage, StereoBm, StereoSgm};
 use image::GrayImage;
 use serde::{Deserialize, Serialize};
 
-/// Error above which an answer is bad, pixels.
+/// Error above which a disparity is bad, pixels.
 pub(super) const BAD_PX: f32 = 2.0;
 
 /// Matching method.
@@ -22,14 +22,14 @@ pub(super) enum Method {
     SemiGlobal,
 }
 
-/// Everything that the answer depends on.
+/// All inputs of the job.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) baseline_m: f64,
     pub(super) method: Method,
     /// Number of disparities searched, from 0 pixels up.
     pub(super) num_disparities: u32,
-    /// Whether uncertain answers are dropped.
+    /// Whether uncertain disparities are dropped.
     pub(super) checks: bool,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Question {
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) pair: RectifiedPair,
-    /// Disparities found.
+    /// Computed disparities.
     pub(super) found: Map,
     pub(super) scores: Scores,
 }
@@ -45,11 +45,11 @@ pub(super) struct Answer {
 /// Coverage and error of the computed disparities.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Scores {
-    /// Fraction of the pixels visible to both cameras that have an answer.
+    /// Fraction of the pixels visible to both cameras that have a disparity.
     pub(super) coverage: f64,
-    /// Fraction of these answers that is bad.
+    /// Fraction of these disparities that are bad.
     pub(super) bad: f64,
-    /// Mean error of these answers, pixels.
+    /// Mean error of these disparities, pixels.
     pub(super) mean_error_px: f64,
 }
 
@@ -109,7 +109,7 @@ impl Question {
         }
     }
 
-    /// Returns the usual filter, or one without its tests if `checks` is off.
+    /// Returns the usual filter, or one without its tests if `checks` is false.
     fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
         match self.checks {
             true => usual,
@@ -156,7 +156,7 @@ impl Scores {
 }
 
 impl Answer {
-    /// Returns found minus true disparity, pixels; `None` without an answer.
+    /// Returns computed minus true disparity, pixels; `None` without one.
     pub(super) fn error_px(&self, u: u32, v: u32) -> Option<f32> {
         Some(self.found.get(u, v)? - self.pair.truth.get(u, v)?)
     }

@@ -1,4 +1,4 @@
-//! The pair, its true disparity, the disparity found, the error, and a legend for the colors.
+//! The pair, its true and computed disparity, the error, and a legend for the colors.
 
 use super::model::DisparityMap;
 use super::question::{Answer, BAD_PX};
@@ -106,7 +106,7 @@ impl View for DisparityMapView {
     }
 }
 
-/// Returns the colored maps: true disparity, disparity found, error.
+/// Returns the colored maps: true disparity, computed disparity, error.
 fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     let full = answer.scale_px();
     let scale = |d: f32| theme.scale(f64::from(d / full));
@@ -131,7 +131,7 @@ fn colored(answer: &Answer, theme: Theme) -> [RgbImage; 3] {
     ]
 }
 
-/// Returns the color of an error: a ramp up to [`BAD_PX`], then the color of bad answers.
+/// Returns the color of an error: a ramp up to [`BAD_PX`], then the color of bad disparities.
 fn error_color(theme: Theme, error_px: f32) -> Rgb {
     let share = error_px.abs() / BAD_PX;
     let [exact, off, bad] =

@@ -7,14 +7,14 @@ use epipole::epipolar::{
 };
 use nalgebra::Matrix3;
 
-/// F with and without normalization, and the quality of the chosen one.
+/// F with and without normalization, and the quality of the selected one.
 pub(super) struct Estimate {
-    /// Matches that F was estimated from.
+    /// Matches used to estimate F.
     pub(super) used: Vec<Match>,
     pub(super) normalized: EightPoint,
     pub(super) raw: EightPoint,
     is_normalized: bool,
-    /// F with the normalization and the rank that the toggles choose.
+    /// F with the normalization and the rank selected by the toggles.
     pub(super) fundamental: Matrix3<f64>,
     /// Intersection of the matches' epipolar lines, exact or nearly so.
     pub(super) meeting: Option<Meeting>,

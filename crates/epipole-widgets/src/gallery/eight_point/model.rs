@@ -1,7 +1,7 @@
 //! The eight-point algorithm on matches of the still life, both with and without normalization.
 //!
 //! The state consists of the settings and the position of the probe. Matches are drawn on first
-//! use; the photographs come from a worker, and nothing waits for them.
+//! use; the photographs come from a worker, which nothing waits for.
 
 use super::estimate::Estimate;
 use super::question::{Answer, Question};
@@ -31,7 +31,7 @@ const RANK2: Toggle = Toggle::new("rank2", "Enforce rank 2").on();
 const SEED: Slider = Slider::seed(1.0);
 const KNOBS: &[Knob] = knobs![COUNT, NOISE, NORMALIZE, RANK2, SEED];
 
-/// Starts on the handle of the mug.
+/// Initially on the handle of the mug.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
     .over(PHOTO_SIZE)
     .step(4.0)
@@ -46,13 +46,13 @@ pub struct EightPoint {
 }
 
 impl EightPoint {
-    /// Returns the photographs, or a sentence on why there are none.
+    /// Returns the photographs, or a message why there are none.
     pub(super) fn photographs(&self) -> Result<&Answer, &str> {
         let why = || self.asked.stand_in();
         self.asked.answer().ok_or_else(why)
     }
 
-    /// Returns the estimate, or a sentence on why there is none.
+    /// Returns the estimate, or a message why there is none.
     pub(super) fn estimate(&self) -> Result<&Estimate, &str> {
         let known = self
             .estimate
@@ -104,7 +104,7 @@ impl EightPoint {
         self.probe.point()
     }
 
-    /// Returns the exact match of the probe, if photograph 2 shows it.
+    /// Returns the exact match of the probe, if it is visible in photograph 2.
     pub(super) fn probe_match(&self) -> Option<Point2<f64>> {
         exact_match(&self.probe())
     }
@@ -136,7 +136,7 @@ impl Declared for EightPoint {
 }
 
 impl Model for EightPoint {
-    /// The matches that F was estimated from.
+    /// Returns the matches used to estimate F.
     fn data(&self) -> Data {
         let Ok(estimate) = self.estimate() else {
             return Data::new();

@@ -1,5 +1,5 @@
-//! The photographs, as a job: the matches need only the shapes of the scene, but a photograph needs
-//! its light, which takes too long for a page.
+//! The job that renders the photographs. Matches need only the shapes of the scene, but a
+//! photograph needs its light, which takes too long for a page.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::matches::cameras;

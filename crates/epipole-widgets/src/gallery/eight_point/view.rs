@@ -1,5 +1,5 @@
-//! Both photographs with the matches and their lines; below, the intersection of the lines,
-//! enlarged, and the singular values.
+//! Both photographs with the matches and their lines; below, an enlarged view of the lines'
+//! intersection, and the singular values.
 
 use super::estimate::Estimate;
 use super::model::EightPoint;
@@ -20,7 +20,7 @@ use nalgebra::Point2;
 const MARKER: f64 = 5.0;
 /// Maximum number of matches with a line; more would hide the photograph.
 const NUM_LINES: usize = 10;
-/// Half widths of the enlarged view, pixels of photograph 2; the first sufficient one is used.
+/// Half widths of the enlarged view, pixels of photograph 2; the first one that suffices is used.
 const NEAR_PX: [f64; 6] = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0];
 
 /// Draws [`EightPoint`].
@@ -196,7 +196,7 @@ fn draw_meeting(model: &EightPoint, estimate: &Estimate, panel: &Panel, canvas: 
             let away_px = libm::hypot(place.0 - to.0, place.1 - to.1) / panel.scale_x();
             let text = format!("truth: {} px", format_number(away_px, 0));
             labels.keep_free(from, 6.0);
-            // Beside the arrow, or farther off if the scale bar is in the way.
+            // Beside the arrow, or farther away if the scale bar is there.
             let places = [9.0, 26.0].map(|distance| Labels::around(from, distance));
             labels.draw(canvas, places.as_flattened(), &text, style);
         }

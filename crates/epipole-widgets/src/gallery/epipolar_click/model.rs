@@ -28,7 +28,7 @@ const TURN: Slider = Slider::new("turn", "Turn camera 2")
     .range(-15.0, 30.0, 1.0)
     .at(4.0)
     .unit("°");
-/// Number of the point shown in the readouts; 0 selects the last one until the reader touches one.
+/// Number of the point shown in the readouts; 0 for the last one, until the reader moves a point.
 const SELECTED: Slider = Slider::new("selected", "Selected point")
     .range(0.0, MAX_POINTS as f64, 1.0)
     .at(0.0)
@@ -64,14 +64,14 @@ const POINT: Probe = Probe::new("p", "first", "Point # in photograph 1")
     .step(4.0)
     .digits(1)
     .told(|place| place_words(place, 1));
-/// The reader's guess of the match of the selected point.
+/// The reader's guess for the match of the selected point.
 const GUESS: Probe = Probe::new("guess", "second", "Your guess of the match")
     .over(PHOTO_SIZE)
     .step(4.0)
     .at(320.0, 240.0);
 /// Maximum distance of a good guess from the match, pixels.
 const GOOD_GUESS_PX: f64 = 25.0;
-/// Maximum distance of a point from an epipolar line that it shares, pixels.
+/// Maximum distance of a point from the epipolar line of another one on the same line, pixels.
 const SAME_LINE_PX: f64 = 2.0;
 /// Minimum distance between two points that share a line, pixels.
 const APART_PX: f64 = 60.0;
@@ -96,7 +96,7 @@ impl EpipolarClick {
         (number(&BASELINE), number(&FORWARD), number(&TURN))
     }
 
-    /// Returns `None` while both cameras are at the same place.
+    /// Returns the epipolar geometry; `None` while both cameras are at the same position.
     pub(super) fn geometry(&self) -> Option<Geometry> {
         Geometry::of(&self.cameras())
     }
@@ -115,12 +115,12 @@ impl EpipolarClick {
             .or_else(|| self.points().last())
     }
 
-    /// Whether lines and matches are shown, not the guess alone.
+    /// Whether lines and matches are shown, rather than only the guess.
     pub(super) fn shows_lines(&self) -> bool {
         self.settings.chosen(&SHOW) != 1
     }
 
-    /// Returns the guess of the match of the selected point, if it is shown.
+    /// Returns the guess for the match of the selected point, if it is shown.
     pub(super) fn guess(&self) -> Option<Point2<f64>> {
         (self.settings.chosen(&SHOW) != 0).then(|| self.guess.point())
     }
@@ -225,7 +225,7 @@ impl Model for EpipolarClick {
         symbols([pixel1, pixel2], self.geometry().as_ref())
     }
 
-    /// The points that both photographs show.
+    /// Returns the points visible in both photographs.
     fn data(&self) -> Data {
         let [first, second] = self.cameras();
         let matches: Vec<_> = self
@@ -388,8 +388,8 @@ mod tests {
         }
     }
 
-    /// Asserts the caption: the forward slider alone brings the epipole steadily into the
-    /// photograph.
+    /// Asserts the caption's claim that the forward slider alone moves the epipole steadily into
+    /// the photograph.
     #[test]
     fn moving_camera_2_forward_brings_the_epipole_into_the_picture() {
         let mut last = epipole_column(&EpipolarClick::new());

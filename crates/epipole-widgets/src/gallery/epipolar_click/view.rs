@@ -15,7 +15,7 @@ use image::RgbImage;
 const MARKER: f64 = 5.5;
 /// Radius of the guess, CSS pixels.
 const GUESS_RADIUS: f64 = 10.0;
-/// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
+/// Maximum height of a photograph, CSS pixels, to leave room for the rest.
 const TALLEST: f64 = 430.0;
 
 /// Draws [`EpipolarClick`].

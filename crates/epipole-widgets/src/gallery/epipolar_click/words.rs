@@ -7,7 +7,7 @@ use crate::kit::scenes::Seen;
 use crate::kit::words::{self, matrix, pixel, short_epipole, side};
 use nalgebra::Point2;
 
-/// Message while both cameras are at the same place.
+/// Message while both cameras are at the same position.
 pub(super) const NO_BASELINE: &str = "Both photographs are taken from the same place, so there is \
     no epipolar geometry: a point fixes its match without any depth, and no line is left over. \
     Move camera 2.";

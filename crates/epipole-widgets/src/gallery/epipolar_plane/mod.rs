@@ -1,5 +1,5 @@
-//! `epipolar-plane`: two cameras with their photographs in space, a point on its ray, and the plane
-//! that hinges about the baseline.
+//! `epipolar-plane`: two cameras with their photographs in 3D, a point on its ray, and the plane
+//! that rotates about the baseline.
 
 mod model;
 mod scenery;

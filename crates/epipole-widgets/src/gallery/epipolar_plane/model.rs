@@ -1,5 +1,5 @@
-//! Positions of both cameras and of P, in world coordinates: a camera that moves leaves P in place,
-//! and P that slides keeps its ray.
+//! Positions of both cameras and of P, in world coordinates: moving a camera leaves P in place, and
+//! sliding P keeps its ray.
 
 use super::scenery::{CAMERA_Y_M, Scenery, camera, surface};
 use crate::contract::{
@@ -67,7 +67,7 @@ const CAMERAS: [[&Slider; 2]; 2] = [[&X1, &Z1], [&X2, &Z2]];
 
 /// Pixel of p at the start, on the mug.
 const START_PX: Point2<f64> = Point2::new(410.0, 306.0);
-/// Limit of the coordinates of P, ± meters; the lower end means "as at the start".
+/// Limit of the coordinates of P, ± meters; the lower end represents the initial value.
 const REACH_M: f64 = 8.0;
 const fn coordinate(id: &'static str, label: &'static str) -> Slider {
     let slider = Slider::new(id, label).range(-REACH_M, REACH_M, 1e-4);
@@ -80,9 +80,9 @@ const COORDINATES: [&Slider; 3] = [&PX, &PY, &PZ];
 
 const KNOBS: &[Knob] = knobs![DEPTH, SHOW, X1, Z1, X2, Z2, PX, PY, PZ];
 
-/// Height over width of the space view, fixed because the model projects points into it.
+/// Height over width of the 3D view, fixed because the model projects points into it.
 pub(super) const SPACE_ASPECT: f64 = 0.505;
-/// Center and radius of the scene in view.
+/// Center and radius of the visible scene.
 pub(super) const SUBJECT: Subject = Subject {
     middle: Point3::new(0.03, -0.22, -0.67),
     radius: 0.68,
@@ -93,7 +93,7 @@ const PIXEL: Probe = Probe::new("p", "first", "p in photograph 1")
     .digits(DIGITS);
 const POINT: &str = "point";
 const CENTERS: [&str; 2] = ["camera1", "camera2"];
-/// Decimal places of positions in the photograph and in the space view.
+/// Decimal places of positions in the photograph and in the 3D view.
 const DIGITS: usize = 1;
 
 /// The model of `epipolar-plane`.
@@ -106,7 +106,8 @@ pub(crate) struct EpipolarPlane {
 }
 
 impl EpipolarPlane {
-    /// Never `None` for cameras in the range of their sliders.
+    /// Returns the cameras, the point and the plane; never `None` for cameras within the range of
+    /// their sliders.
     pub(super) fn scenery(&self) -> Option<&Scenery> {
         self.scenery.as_ref()
     }
@@ -187,7 +188,7 @@ impl EpipolarPlane {
         Lens::of_panel(SPACE_ASPECT, &self.orbit, &SUBJECT)
     }
 
-    /// Moves P or a camera as near to the pointer in the space view as its constraint allows.
+    /// Moves P or a camera as close to the pointer in the 3D view as its constraint allows.
     fn drag(&mut self, id: &str, place: (f64, f64)) {
         let Some(lens) = self.lens() else {
             return;
@@ -301,7 +302,7 @@ impl Model for EpipolarPlane {
         match event {
             Event::Set { id, value } => {
                 self.settings.set(id, value)?;
-                // After a move of P or of a camera all three coordinates are stored, so that a
+                // After a move of P or of a camera, all three coordinates are stored, so that a
                 // permalink restores them exactly.
                 let moves_camera = CAMERAS.as_flattened().iter().any(|slider| slider.id == id);
                 let is_put =
@@ -315,7 +316,7 @@ impl Model for EpipolarPlane {
                 }
             }
             Event::HandleMoved { id, x, y } => {
-                // An unchanged position must not move its handle by a rounding error.
+                // Rounding must not move the handle if its position is unchanged.
                 let stays = |handle: &Handle| handle.id == *id && (handle.x, handle.y) == (*x, *y);
                 if self.handles().iter().any(stays) {
                     return Ok(());

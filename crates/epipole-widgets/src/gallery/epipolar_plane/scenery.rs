@@ -1,4 +1,4 @@
-//! Two cameras before the still life, a point, and the plane through it and both centers.
+//! Two cameras in front of the still life, a point, and the plane through it and both centers.
 
 use crate::kit::geometry::Geometry;
 use crate::kit::scenes::{PHOTO_SIZE, still_life};
@@ -56,15 +56,15 @@ impl Plane {
     }
 }
 
-/// The cameras, the point, and all that is derived from them.
+/// Cameras, point, and all derived values.
 pub(super) struct Scenery {
     pub(super) cameras: [PosedCamera; 2],
     pub(super) point: Point3<f64>,
     /// Pixel of the point in each camera; `None` behind it.
     pub(super) pixels: [Option<Point2<f64>>; 2],
-    /// `None` while both cameras are at the same place.
+    /// Epipolar geometry; `None` while both cameras are at the same position.
     pub(super) geometry: Option<Geometry>,
-    /// `None` without a baseline, or with the point on it.
+    /// Epipolar plane; `None` without a baseline, or if the point lies on it.
     pub(super) plane: Option<Plane>,
     pub(super) surface: Option<Surface>,
 }
@@ -161,7 +161,7 @@ mod tests {
         let tilt = first.plane.unwrap().tilt_deg();
         let origin = cameras[0].center_in_world();
         for share in [0.5, 0.8, 1.4] {
-            // Along the ray the plane stays, and so do both lines and p.
+            // Along the ray the plane does not change, nor do both lines and p.
             let there = Scenery::new(cameras, origin + (first.point - origin) * share);
             assert!((there.plane.unwrap().tilt_deg() - tilt).abs() < 1e-9);
             assert!(there.residual_px().unwrap() < 1e-6);

@@ -1,5 +1,5 @@
-//! The space view with both photographs in it, the same photographs flat beside it, and below it
-//! the formula of the highlighted element.
+//! The 3D view with both photographs, the same photographs beside it, and below it the formula of
+//! the highlighted element.
 
 mod space;
 mod style;
@@ -30,14 +30,14 @@ pub(crate) struct EpipolarPlaneView {
     cloud: Vec<(Point3<f64>, Rgb)>,
 }
 
-/// Returns the space view and the two photographs.
+/// Lays out the 3D view and the two photographs.
 fn cells(grid: &mut Grid, width: f64) -> (Rect, [Rect; 2]) {
     let aspect = PHOTO_ASPECT;
     if grid::is_narrow(width) {
         let [space] = grid.row([SPACE_ASPECT], 400.0);
         return (space, grid.row([aspect; 2], 106.0));
     }
-    // Two photographs below each other are as tall as the space.
+    // Two photographs in a column are as tall as the 3D view.
     let between = GAP + TITLE;
     let room = width - GAP + between / (2.0 * aspect);
     let height = room / (1.0 / SPACE_ASPECT + 1.0 / (2.0 * aspect));
@@ -199,7 +199,7 @@ fn draw_second(model: &EpipolarPlane, scenery: &Scenery, panel: &Panel, canvas: 
         let inside = (x, place.1.min(room.bottom()).max(room.y));
         draw_name(canvas, &mut labels, inside, "p′", lit == Lit::Point);
     }
-    // On a phone there is no room for words.
+    // On a phone there is no room for text.
     if let Some(place) = ring.filter(|_| panel.rect.width > 200.0) {
         labels.name(
             canvas,
@@ -219,7 +219,7 @@ fn draw_name(canvas: &mut Canvas, labels: &mut Labels, place: Place, name: &str,
     labels.name(canvas, (place, 10.0), name, (role, TEXT + 1.0));
 }
 
-/// Vertical place of a piece of a formula.
+/// Vertical position of a piece of a formula.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Level {
     Base,

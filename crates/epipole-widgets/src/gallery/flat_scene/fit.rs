@@ -1,4 +1,4 @@
-//! The singular values of the normalized rows, and every F that fits about as well as the best.
+//! Singular values of the normalized rows, and every F that fits about as well as the best.
 
 use crate::kit::matches::{Match, line2, mean_distance_px};
 use epipole::Error;
@@ -6,13 +6,13 @@ use epipole::epipolar::{Normalization, epipolar_row};
 use epipole::math::{Line2, right_singular_vectors};
 use nalgebra::{Matrix3, Point2};
 
-/// Largest residual `‖A f‖` of an F that fits, relative to that of the best, σ₉.
+/// Maximum residual `‖A f‖` of an F that fits, relative to that of the best, σ₉.
 pub(super) const FITS: f64 = 1.5;
-/// Residual that rounding alone may cause, relative to σ₁.
+/// Residual of rounding errors, relative to σ₁.
 const ROUNDING: f64 = 1e-9;
 /// Number of other F around the best one.
 const NUM_OTHERS: usize = 8;
-/// Largest angle between the best f and another one.
+/// Maximum angle between the best f and another one.
 const WIDEST_DEG: f64 = 60.0;
 
 /// The eight-point algorithm before rank 2, and its neighbors.
@@ -20,9 +20,9 @@ const WIDEST_DEG: f64 = 60.0;
 pub(super) struct Fit {
     /// Singular values of the normalized rows, largest first.
     pub(super) singular_values: [f64; 9],
-    /// The best F.
+    /// Best F.
     pub(super) best: Matrix3<f64>,
-    /// Others that fit within [`FITS`], as far from the best as that allows.
+    /// Other F that fit within [`FITS`], as far from the best as that allows.
     pub(super) others: Vec<Matrix3<f64>>,
 }
 
@@ -72,7 +72,7 @@ impl Fit {
     }
 }
 
-/// Returns the residual of the best f, or that of rounding if it is smaller.
+/// Returns the residual of the best f, or that of rounding errors if it is smaller.
 fn least(sigma: &[f64; 9]) -> f64 {
     sigma[8].max(ROUNDING * sigma[0])
 }

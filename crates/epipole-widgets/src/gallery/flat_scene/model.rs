@@ -31,19 +31,19 @@ const PROBE: Probe = Probe::new("probe", "first", "Probe in image 1")
     .step(4.0)
     .at(320.0, 200.0);
 
-/// Spread of the flattest scene whose F is still to be determined.
+/// Maximum spread of the challenge to determine F in a nearly flat scene.
 const NEARLY_FLAT: f64 = 0.1;
 
-/// The matches, and every F that fits them.
+/// Matches, and every F that fits them.
 pub(super) struct State {
     pub(super) matches: Vec<Match>,
     pub(super) points: Vec<Point3<f64>>,
     pub(super) fit: Fit,
-    /// The singular values at full spread, for comparison.
+    /// Singular values at full spread, for comparison.
     pub(super) deep: [f64; 9],
     /// Mean distance of the matches from their lines by the best F, pixels.
     pub(super) used_px: f64,
-    /// The same for exact matches of points in depth that took no part, pixels.
+    /// The same for exact matches of points with depth that were not used, pixels.
     pub(super) new_px: f64,
 }
 
@@ -55,7 +55,7 @@ pub(crate) struct FlatScene {
 }
 
 impl FlatScene {
-    /// Returns the matches and every F, or a sentence on why there is none.
+    /// Returns the matches and every F, or a message why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
         self.state.as_ref().map_err(String::as_str)
     }
@@ -72,7 +72,7 @@ impl FlatScene {
         self.probe.point()
     }
 
-    /// Returns the pixel of image 2 where the plane is seen along the probe's ray.
+    /// Returns the pixel of image 2 at which the probe's ray meets the plane.
     pub(super) fn on_plane(&self) -> Option<Point2<f64>> {
         pixel2(&self.probe(), 0.0)
     }
@@ -86,7 +86,7 @@ impl FlatScene {
         )
     }
 
-    /// Returns the largest angle between two lines of the probe that fit, degrees.
+    /// Returns the maximum angle between two lines of the probe by F that fit, degrees.
     pub(super) fn fan_deg(&self) -> Option<f64> {
         self.state().ok()?.fit.fan_deg(&self.probe())
     }
@@ -202,7 +202,7 @@ mod tests {
             assert_eq!(deep.deep, before);
             assert!(after[7] < 0.2 * before[7] && after[6] < 0.2 * before[6]);
             assert!(after[5] > 0.5 * before[5]);
-            // The matches used fit as before; points off the plane do not.
+            // The matches used still fit; points off the plane do not.
             assert!(flat.used_px < 1.5 * deep.used_px);
             assert!(
                 flat.new_px > 5.0 * deep.new_px,

@@ -6,7 +6,7 @@ use epipole::camera::{Camera, Intrinsics, PosedCamera};
 use epipole::math::random::Random;
 use nalgebra::{Isometry3, Point2, Point3, Translation3, UnitQuaternion, Vector3};
 
-/// Number of matches that F is estimated from, and of points that evaluate it.
+/// Number of matches used to estimate F, and of points used to evaluate it.
 const NUM_USED: usize = 40;
 const NUM_NEW: usize = 40;
 /// Maximum number of pixels tried in image 1.
@@ -18,9 +18,9 @@ const LEFT_DEG: f64 = 13.0;
 /// Distance of the plane on the optical axis of camera 1, meters, and its slope to the right.
 const PLANE_M: f64 = 4.6;
 const SLOPE: f64 = 0.35;
-/// Largest depth from the plane at full spread, meters.
+/// Maximum distance from the plane in depth at full spread, meters.
 const DEEP_M: f64 = 1.7;
-/// Smallest distance between points in image 1 and from its edge, pixels.
+/// Minimum distance between points in image 1 and from its edge, pixels.
 const APART_PX: f64 = 26.0;
 const MARGIN_PX: f64 = 24.0;
 
@@ -33,7 +33,7 @@ struct Spot {
     noise: [f64; 4],
 }
 
-/// The points of one seed.
+/// Points for one seed.
 #[derive(Debug, Clone)]
 pub(super) struct Scene {
     used: Vec<Spot>,
@@ -44,7 +44,8 @@ pub(super) struct Scene {
 pub(super) fn cameras() -> Option<[PosedCamera; 2]> {
     let intrinsics = Intrinsics::centered(FOCAL_PX, PHOTO_WIDTH, PHOTO_HEIGHT).ok()?;
     let camera = Camera::pinhole(intrinsics, PHOTO_WIDTH, PHOTO_HEIGHT);
-    // y points down: turning the camera left rotates what it sees to the right, by +y.
+    // y points down: rotating the camera to the left rotates the scene to the right in its frame,
+    // by +y.
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), LEFT_DEG.to_radians());
     let to_center = Translation3::from(-Vector3::from(CENTER_M));
     let second = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
@@ -56,7 +57,7 @@ pub(super) fn cameras() -> Option<[PosedCamera; 2]> {
     )
 }
 
-/// Returns the point on the ray of a pixel of image 1 that is this far behind the plane, meters.
+/// Returns the point on the ray of a pixel of image 1 at this depth behind the plane, meters.
 pub(super) fn point(pixel1: &Point2<f64>, behind_m: f64) -> Point3<f64> {
     let middle = Point2::from([PHOTO_SIZE.0, PHOTO_SIZE.1].map(|n| (f64::from(n) - 1.0) / 2.0));
     let ray = (pixel1 - middle) / FOCAL_PX;
@@ -64,8 +65,8 @@ pub(super) fn point(pixel1: &Point2<f64>, behind_m: f64) -> Point3<f64> {
     Point3::new(ray.x * depth, ray.y * depth, depth)
 }
 
-/// Returns the pixel of image 2 that shows the point of a pixel of image 1 this far behind the
-/// plane, meters, if it is inside.
+/// Returns the pixel of image 2 for the point on the ray of a pixel of image 1 at this depth behind
+/// the plane, meters, if it is inside.
 pub(super) fn pixel2(pixel1: &Point2<f64>, behind_m: f64) -> Option<Point2<f64>> {
     let [_, second] = cameras()?;
     let pixel2 = second.project(&point(pixel1, behind_m)).ok()?;
@@ -73,7 +74,7 @@ pub(super) fn pixel2(pixel1: &Point2<f64>, behind_m: f64) -> Option<Point2<f64>>
 }
 
 impl Scene {
-    /// Draws points that both images show at every spread.
+    /// Draws points that are visible in both images at every spread.
     pub(super) fn draw(seed: u64) -> Self {
         let mut random = Random::new(seed);
         let mut spots: Vec<Spot> = Vec::new();
@@ -123,7 +124,7 @@ impl Scene {
         self.used.iter().filter_map(pair).collect()
     }
 
-    /// Returns exact matches of points that took no part, never flattened.
+    /// Returns exact matches of points that were not used, never flattened.
     pub(super) fn new_points(&self) -> Vec<Match> {
         let pair = |spot: &Spot| Some((spot.pixel1, pixel2(&spot.pixel1, spot.behind_m)?));
         self.new.iter().filter_map(pair).collect()

@@ -1,5 +1,5 @@
-//! Both images with the matches and the lines of the probe; beside or below them the scene from
-//! above, and the singular values.
+//! Both images with the matches and the lines of the probe; beside or below them a top view of the
+//! scene, and the singular values.
 
 use super::fit::FITS;
 use super::model::{FlatScene, State};
@@ -19,7 +19,7 @@ use nalgebra::{Point2, Vector2, Vector3};
 
 const MARKER: f64 = 4.0;
 const DECADES: [f64; 2] = [-3.6, 1.5];
-/// Extent of the plan, meters to the right and away.
+/// Extent of the top view, meters to the right and away.
 const PLAN_M: [[f64; 2]; 2] = [[-2.2, 3.4], [-0.4, 7.2]];
 /// Depth of the drawn image planes, meters.
 const IMAGE_M: f64 = 0.7;
@@ -147,7 +147,7 @@ fn draw_second(model: &FlatScene, state: &State, panel: &Panel, canvas: &mut Can
 fn draw_above(model: &FlatScene, state: &State, panel: &Panel, canvas: &mut Canvas) {
     plan::draw_distances(canvas, panel, "m");
     let [width, _] = [PHOTO_SIZE.0, PHOTO_SIZE.1].map(f64::from);
-    // The plane contains the vertical direction, so it is a line.
+    // The plane is vertical, so it is a line in the top view.
     let ends = [0.0, width - 1.0].map(|u| {
         let end = point(&Point2::new(u, 0.0), 0.0);
         panel.canvas_from_world((end.x, end.z))

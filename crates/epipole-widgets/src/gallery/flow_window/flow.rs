@@ -1,4 +1,4 @@
-//! The equations of a window, their structure tensor, and the steps of Lucas and Kanade.
+//! Equations of a window, their structure tensor, and Lucas-Kanade iterations.
 
 use epipole::Error;
 use epipole::feature::{TrackOptions, WindowTensor, track_lucas_kanade};
@@ -9,15 +9,15 @@ use std::sync::OnceLock;
 
 /// Half size of the largest window, pixels.
 pub(super) const LARGEST_HALF: u32 = 10;
-/// Largest motion along rows and columns, pixels.
+/// Maximum motion along rows and columns, pixels.
 pub(super) const REACH: usize = 6;
-/// Half size of the part of the photograph that is looked at, pixels: the largest window on the
-/// coarsest level, and its motion.
+/// Half size of the cropped part of the photograph, pixels: the largest window on the coarsest
+/// level, and its motion.
 const PART_HALF: u32 = 52;
-/// Number of equations that are kept, those with the steepest gradients.
+/// Number of equations kept, those with the steepest gradients.
 const NUM_EQUATIONS: usize = 40;
 
-/// Size and motion of the window, and how it is followed.
+/// Size and motion of the window, and the settings for tracking it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Setup {
     /// Center of the window in frame 1, pixels.
@@ -38,17 +38,17 @@ pub(super) struct Setup {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Equation {
     pub(super) gradient: Vector2<f64>,
-    /// Change from frame 1 to frame 2 at the pixel.
+    /// Temporal change from frame 1 to frame 2 at the pixel.
     pub(super) change: f64,
 }
 
-/// A window that is followed from frame 1 to frame 2.
+/// A window tracked from frame 1 to frame 2.
 pub(super) struct Flow {
     /// Equations of the steepest pixels, steepest first.
     pub(super) equations: Vec<Equation>,
-    /// Per pixel of the window, gray values in [0, 1].
+    /// Structure tensor per pixel of the window, gray values in [0, 1].
     pub(super) tensor: WindowTensor,
-    /// Motion after each step, pixels, from zero on; shorter if the window was lost.
+    /// Motion after each step, pixels, starting with zero; shorter if the window was lost.
     pub(super) path: Vec<Vector2<f64>>,
     /// Part of both frames around the window.
     parts: [GrayImage32; 2],
@@ -58,7 +58,7 @@ pub(super) struct Flow {
 }
 
 impl Flow {
-    /// Moves the photograph, and follows the window.
+    /// Moves the photograph, and tracks the window.
     ///
     /// * `photograph`: frame 1, gray values in [0, 1]
     ///
@@ -172,7 +172,7 @@ fn equations(
     half: u32,
 ) -> (Vec<Equation>, WindowTensor) {
     let side = 2 * half + 1;
-    // With a pixel around it, for the gradients.
+    // Includes one more pixel on each side, for the gradients.
     let around = |image: &GrayImage32| {
         let (left, top) = (u - half - 1, v - half - 1);
         image::imageops::crop_imm(image, left, top, side + 2, side + 2).to_image()
@@ -202,7 +202,7 @@ fn equations(
 mod tests {
     use super::*;
 
-    /// A disk with a smooth rim; its middle is at (160, 120).
+    /// A disk with a smooth rim, centered at (160, 120).
     fn disk() -> GrayImage32 {
         GrayImage32::from_fn(320, 240, |u, v| {
             let (x, y) = (f64::from(u) - 160.0, f64::from(v) - 120.0);
@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn a_rim_tells_its_normal_only() {
-        // The upper rim is nearly horizontal: rows are found, columns hardly.
+        // The upper rim is nearly horizontal, so only the vertical motion is determined.
         let narrow = Setup {
             half: 3,
             ..setup((160, 90))

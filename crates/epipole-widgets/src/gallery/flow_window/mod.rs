@@ -1,4 +1,5 @@
-//! `flow-window`: one equation per pixel of a window for its motion, and the motion they agree on.
+//! `flow-window`: one equation per pixel of a window for its motion, and the motion that satisfies
+//! them best.
 
 mod flow;
 mod model;

@@ -1,4 +1,4 @@
-//! A window of a photograph, its true motion to the next frame, and how it is followed.
+//! A window of a photograph, its true motion to the next frame, and the settings for tracking it.
 
 use super::flow::{Flow, LARGEST_HALF, REACH, Setup};
 use super::question::{Question, SIZE};
@@ -37,7 +37,7 @@ const GAIN: Slider = Slider::new("gain", "Brighter by")
     .more();
 const KNOBS: &[Knob] = knobs![WINDOW, STEPS, LEVELS, SHOW, NOISE, GAIN];
 
-/// Starts on a corner of the picture's frame.
+/// Initially on a corner of the picture's frame.
 const PLACE: Probe = Probe::new("place", "photo", "Window")
     .within([room(SIZE.0), room(SIZE.1)])
     .at(145.0, 73.0);
@@ -56,7 +56,7 @@ const MOTION: Probe = Probe::new("motion", "plane", "True motion")
     })
     .at(1.2, -0.8);
 
-/// Error above which a window went astray, pixels.
+/// Error above which tracking has failed, pixels.
 const ASTRAY_PX: f64 = 1.0;
 
 /// Content of the plane of motions.
@@ -74,12 +74,12 @@ pub(crate) struct FlowWindow {
     pub(super) asked: Computation<Question>,
     photograph: Option<GrayImage32>,
     flow: Result<Flow, String>,
-    /// Number of the flow, for the cache of the view's map.
+    /// Version of the flow, for the cache of the view's map.
     pub(super) version: u64,
 }
 
 impl FlowWindow {
-    /// Returns the window's flow, or a sentence on why there is none.
+    /// Returns the window's flow, or a message why there is none.
     pub(super) fn flow(&self) -> Result<&Flow, &str> {
         self.flow.as_ref().map_err(String::as_str)
     }

@@ -1,5 +1,5 @@
-//! The photograph with the window, the window in both frames, and the plane of motions: each pixel
-//! is a line in it.
+//! The photograph with the window, the window in both frames, and the plane of motions, in which
+//! each pixel is a line.
 
 use super::flow::{Equation, Flow, REACH};
 use super::model::{FlowWindow, Shown};
@@ -17,11 +17,11 @@ use nalgebra::Vector2;
 
 /// Height over width of the photograph.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Difference of the windows from one level line to the next, gray values in [0, 1], and at full
-/// saturation.
+/// Difference of the windows between neighboring level lines, and at full saturation, gray values
+/// in [0, 1].
 const LEVEL: f64 = 0.025;
 const STRONG: f64 = 0.35;
-/// Room for the names of the windows, CSS pixels.
+/// Height of the windows' names, CSS pixels.
 const NAMES: f64 = 18.0;
 
 /// Draws [`FlowWindow`].
@@ -95,7 +95,7 @@ impl View for FlowWindowView {
     }
 }
 
-/// Draws the window, and where it was found in frame 2.
+/// Draws the window, and its position found in frame 2.
 fn draw_places(model: &FlowWindow, panel: &Panel, canvas: &mut Canvas) {
     let half = (f64::from(model.setup().half) + 0.5) * panel.scale_x();
     let place = model.place.place();
@@ -108,7 +108,7 @@ fn draw_places(model: &FlowWindow, panel: &Panel, canvas: &mut Canvas) {
     rectified::draw_window(canvas, center, half);
 }
 
-/// Draws the window of frame 1, and those of frame 2 at the same place and where it was found.
+/// Draws the window of frame 1, and those of frame 2 at the same position and at the one found.
 fn draw_windows(model: &FlowWindow, flow: &Flow, rect: Rect, canvas: &mut Canvas) {
     let found = model.found().unwrap_or_else(Vector2::zeros);
     let [before, there] = flow.windows(found);

@@ -4,7 +4,7 @@ use super::model::{FlowWindow, Shown};
 use crate::contract::{Readout, Words, format_number};
 use nalgebra::Vector2;
 
-/// Squared gray levels of squared gray values in [0, 1].
+/// Factor from squared gray values in [0, 1] to squared gray levels.
 const LEVELS_SQUARED: f64 = 255.0 * 255.0;
 
 fn motion_words(motion: Vector2<f64>, digits: usize) -> String {

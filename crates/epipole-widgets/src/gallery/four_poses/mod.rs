@@ -1,4 +1,4 @@
-//! `four-poses`: the four camera poses of an essential matrix, from above.
+//! `four-poses`: a top view of the four camera poses of an essential matrix.
 
 mod model;
 mod poses;

@@ -1,4 +1,4 @@
-//! Position and rotation of camera 2 before the house.
+//! Position and rotation of camera 2 in front of the house.
 
 use super::poses::{Ambiguity, Pose};
 use crate::contract::{
@@ -18,8 +18,8 @@ const KNOBS: &[Knob] = knobs![TURN];
 /// Range of camera 2, scene units: to the right, and forward.
 pub(super) const X_RANGE: [f64; 2] = [-1.6, 1.6];
 pub(super) const Z_RANGE: [f64; 2] = [-1.0, 1.2];
-/// Starts closer to the house than camera 1, so that all four poses keep all corners near: a corner
-/// at the same distance from both cameras goes to infinity in the half-turned poses.
+/// Initially closer to the house than camera 1, so that all corners stay near in all four poses: a
+/// corner at equal distances from both cameras goes to infinity in the half-turned poses.
 const CAMERA_2: Probe = Probe::new("camera2", "first", "Camera 2")
     .within([X_RANGE, Z_RANGE])
     .step(0.1)
@@ -31,7 +31,7 @@ const CAMERA_2: Probe = Probe::new("camera2", "first", "Camera 2")
         format!("{aside} to the {side}, {along} {way}")
     })
     .at(-0.8, 0.6);
-/// Distance beyond which a corner counts as infinitely far, scene units.
+/// Distance beyond which a corner is treated as infinitely far, scene units.
 const FAR: f64 = 20.0;
 
 /// The model of `four-poses`.

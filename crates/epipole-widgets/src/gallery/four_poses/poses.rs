@@ -1,4 +1,4 @@
-//! Two cameras before a house, the essential matrix between them, and its four poses.
+//! Two cameras in front of a house, their essential matrix, and its four poses.
 
 use epipole::Result;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
@@ -6,7 +6,7 @@ use epipole::epipolar::{decompose_essential, essential_from_motion};
 use epipole::triangulation::triangulate_midpoint;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-/// Shortest baseline that has an essential matrix here, scene units.
+/// Minimum baseline for an essential matrix, scene units.
 const SHORTEST: f64 = 0.05;
 /// Focal length and size of both photographs, pixels.
 pub(super) const FOCAL_PX: f64 = 500.0;
@@ -32,7 +32,7 @@ const HOUSE_TURN_DEG: f64 = 24.0;
 /// A corner triangulated with one of the poses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Crossing {
-    /// In the frame of camera 1.
+    /// Position in the frame of camera 1.
     pub(super) point: Point3<f64>,
     /// Whether the point is in front of camera 1, and of camera 2.
     pub(super) in_front: [bool; 2],
@@ -48,7 +48,7 @@ impl Crossing {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pose {
     pub(super) cam2_from_cam1: RigidTransform,
-    /// One entry per corner; `None` unless both cameras see it and its rays cross.
+    /// Triangulated corners; `None` unless both cameras see the corner and its rays intersect.
     pub(super) crossings: Vec<Option<Crossing>>,
 }
 
@@ -64,15 +64,14 @@ impl Pose {
 pub(super) struct Ambiguity {
     /// (R, t), (R, −t), (half-turned R, t) and (half-turned R, −t); empty without a baseline.
     pub(super) poses: Vec<Pose>,
-    /// Number of corners that both cameras see.
+    /// Number of corners visible to both cameras.
     pub(super) num_matches: usize,
 }
 
 impl Ambiguity {
     /// * `motion`: true `cam2_from_cam1`
     ///
-    /// # Errors
-    /// As [`decompose_essential`]: numbers that are not finite.
+    /// # Errors As [`decompose_essential`], for values that are not finite.
     pub(super) fn of(motion: &RigidTransform) -> Result<Self> {
         let step = motion.translation.vector.norm();
         let rays: Vec<_> = house().iter().map(|corner| rays(corner, motion)).collect();

@@ -1,4 +1,4 @@
-//! The four poses from above, side by side, with the corners in front of both cameras marked.
+//! Top views of the four poses, side by side, with the corners in front of both cameras marked.
 
 use super::model::{FourPoses, X_RANGE, Z_RANGE};
 use super::poses::{EDGES, FOCAL_PX, Pose, RIDGE, SIZE};
@@ -75,7 +75,7 @@ fn draw_room(panel: &Panel, canvas: &mut Canvas) {
     canvas.stroke_rect(room, Stroke::solid(Role::Grid, 1.0).dashed());
 }
 
-/// Whether there is room for words beside the marks.
+/// Whether there is room for text beside the marks.
 fn is_wordy(panel: &Panel) -> bool {
     panel.rect.width >= 240.0
 }
@@ -158,8 +158,8 @@ fn draw_pose(pose: &Pose, panel: &Panel, is_held: bool, canvas: &mut Canvas) {
     }
 }
 
-/// Draws the walls and the ridge, unless one end is in front of a camera and the other behind it:
-/// such an edge would pass through infinity.
+/// Draws the walls and the ridge, except for edges with one end in front of a camera and the other
+/// behind it, which would pass through infinity.
 fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     let at = |point: &Point3<f64>| panel.canvas_from_world((point.x, point.z));
     let base = pose.crossings[..4].iter().flatten();
@@ -183,7 +183,7 @@ fn draw_house(pose: &Pose, panel: &Panel, canvas: &mut Canvas) {
     }
 }
 
-/// Returns the middle of an arrow, as a start closer to its tip.
+/// Returns a start for an arrow closer to its tip.
 fn shorter(from: Place, to: Place) -> Place {
     ((from.0 + to.0) / 2.0, (from.1 + to.1) / 2.0)
 }

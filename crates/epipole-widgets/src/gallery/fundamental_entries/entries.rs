@@ -1,4 +1,4 @@
-//! The true F of two photographs, its changed entries, and the lines that they draw.
+//! The true F of two photographs, its modified entries, and their epipolar lines.
 
 use crate::kit::geometry::Geometry;
 use crate::kit::matches::{Match, mean_distance_px};
@@ -22,7 +22,7 @@ const PLACES_PX: [(f64, f64); 6] = [
     (560.0, 120.0),
     (130.0, 380.0),
 ];
-/// Largest third singular value of a matrix of rank 2, relative to the first.
+/// Maximum third singular value of a matrix of rank 2, relative to the first.
 const ROUNDING: f64 = 1e-12;
 
 /// Returns both cameras.
@@ -66,7 +66,7 @@ impl Truth {
         })
     }
 
-    /// Returns the nine entries before any change.
+    /// Returns the nine entries without changes.
     pub(super) fn numbers(&self, is_normalized: bool) -> &Matrix3<f64> {
         if is_normalized {
             &self.normalized
@@ -76,7 +76,7 @@ impl Truth {
     }
 }
 
-/// Changes of the nine entries, and of all at once.
+/// Changes of the nine entries, and a common factor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     pub(super) is_normalized: bool,
@@ -87,7 +87,7 @@ pub(super) struct Change {
     pub(super) scale: f64,
 }
 
-/// The nine entries after a change, and the lines that they draw.
+/// The nine entries after a change, and their epipolar lines.
 pub(super) struct Entries {
     /// The entries, in normalized coordinates or in pixels.
     pub(super) numbers: Matrix3<f64>,

@@ -13,7 +13,7 @@ use epipole::math::Line2;
 use nalgebra::{Matrix3, Point2};
 use std::sync::OnceLock;
 
-/// Largest change of an entry.
+/// Maximum change of an entry.
 const MOST: f64 = 0.5;
 
 const fn change(id: &'static str, label: &'static str) -> Slider {
@@ -74,7 +74,7 @@ static KNOBS: [Knob; 14] = [
 /// Panel of the nine entries; a click on one selects it.
 pub(super) const MATRIX: &str = "matrix";
 
-/// Starts on an orange.
+/// Initially on an orange.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
     .over(PHOTO_SIZE)
     .step(4.0)
@@ -87,14 +87,14 @@ pub(crate) struct FundamentalEntries {
     entries: Result<Entries, String>,
 }
 
-/// Returns the matches and F before any change.
+/// Returns the matches and the true F.
 fn truth() -> Option<&'static Truth> {
     static TRUTH: OnceLock<Option<Truth>> = OnceLock::new();
     TRUTH.get_or_init(Truth::new).as_ref()
 }
 
 impl FundamentalEntries {
-    /// Returns the nine entries and their lines, or a sentence on why there are none.
+    /// Returns the nine entries and their lines, or a message why there are none.
     pub(super) fn entries(&self) -> Result<&Entries, &str> {
         self.entries.as_ref().map_err(String::as_str)
     }
@@ -134,7 +134,7 @@ impl FundamentalEntries {
         self.probe.point()
     }
 
-    /// Returns the exact match of the probe, if photograph 2 shows it.
+    /// Returns the exact match of the probe, if it is visible in photograph 2.
     pub(super) fn probe_match(&self) -> Option<Point2<f64>> {
         match Seen::of(&cameras(), &self.probe()) {
             Seen::Visible(pixel2) => Some(pixel2),

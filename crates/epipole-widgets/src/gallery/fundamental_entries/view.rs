@@ -118,7 +118,7 @@ fn draw_first(model: &FundamentalEntries, truth: &Truth, panel: &Panel, canvas: 
     canvas.grip(panel.place_of(&model.probe()), Role::Grip);
 }
 
-/// Draws the lines, the distances of the matches from them, and the point where they meet.
+/// Draws the lines, the distances of the matches from them, and their intersection.
 fn draw_second(
     model: &FundamentalEntries,
     entries: &Entries,
@@ -132,7 +132,7 @@ fn draw_second(
         };
         let stroke = Stroke::solid(series(index).0, 1.5).cased();
         draw_line(canvas, panel, &line, stroke);
-        // The residual: from the match perpendicular to its line.
+        // The residual, perpendicular from the match to its line.
         let [from, to] = [*pixel2, line.nearest(pixel2)].map(|pixel| panel.place_of(&pixel));
         canvas.line(from, to, RESIDUAL.cased());
     }
@@ -157,7 +157,7 @@ fn draw_second(
     }
 }
 
-/// Draws the epipole, or a circle that the lines pass at their mean distance.
+/// Draws the epipole, or a circle with the lines' mean distance as its radius.
 fn draw_meeting(
     meeting: &Meeting,
     fundamental: &Matrix3<f64>,
@@ -186,7 +186,7 @@ fn draw_meeting(
     }
 }
 
-/// Draws each entry as a number and as a bar from zero, with a tick at its value before any change.
+/// Draws each entry as a number and as a bar from zero, with a tick at its unchanged value.
 fn draw_matrix(
     model: &FundamentalEntries,
     entries: &Entries,
@@ -196,7 +196,7 @@ fn draw_matrix(
 ) {
     let change = model.change();
     let before = truth.numbers(change.is_normalized);
-    // Entries for pixels differ by factors of thousands.
+    // Entries for pixels differ by orders of magnitude.
     let digits = if change.is_normalized { 3 } else { 6 };
     let largest = entries.numbers.amax().max(before.amax());
     let cell_at = |(row, column): (usize, usize)| {
@@ -236,7 +236,7 @@ fn draw_values(entries: &Entries, panel: &Panel, canvas: &mut Canvas) {
         name: ("", 0),
     };
     plot::draw_lists(canvas, panel, &[list]);
-    // Singular values fall, so the lower left corner is free.
+    // Singular values decrease, so the lower left corner is free.
     let corner = (panel.rect.x + 6.0, panel.rect.bottom() - 11.0);
     let style = TextStyle::new(Role::Inlier, SMALL).cased();
     canvas.label(corner, &format!("rank {}", entries.rank()), style);

@@ -16,11 +16,11 @@ pub(super) const GRID: (u32, u32) = (24, 18);
 const MARGIN: u32 = 22;
 /// Gray level of the dark side.
 const DARK: f64 = 68.0;
-/// Gray levels from the dark side to the bright one.
+/// Difference between the dark and the bright side, gray levels.
 const STEP: f64 = 120.0;
 /// Width of the ramp, pixels: the slope is 20 gray levels per pixel.
 const RAMP_PX: f64 = 6.0;
-/// Maximum distance from the middle of the ramp at which a pixel is on the edge, pixels.
+/// Maximum distance of an edge pixel from the middle of the ramp, pixels.
 const ON_EDGE_PX: f64 = 1.5;
 
 /// The gradient at a pixel.
@@ -120,13 +120,12 @@ impl Field {
         }
     }
 
-    /// Returns the gray levels as a picture.
+    /// Returns the image in gray levels.
     pub(super) fn picture(&self) -> &RgbImage {
         &self.shown().0
     }
 
-    /// Returns one gradient per cell of the grid, the steepest in it; on an edge a cell is one
-    /// pixel.
+    /// Returns one gradient per grid cell, the steepest in it; for the edge a cell is one pixel.
     pub(super) fn arrows(&self) -> &[Arrow] {
         &self.shown().1
     }
@@ -199,7 +198,7 @@ impl Edge {
         Ok(Field::new(&levels, smooth_px)?.inside())
     }
 
-    /// Returns the RMS angle of the gradients on the edge to their true direction, degrees.
+    /// Returns the RMS angle between the gradients on the edge and their true direction, degrees.
     pub(super) fn off_deg(&self, field: &Field) -> f64 {
         let on_edge = |arrow: &&Arrow| self.distance_px(arrow.at).abs() <= ON_EDGE_PX;
         let squares: Vec<f64> = (field.arrows().iter().filter(on_edge))

@@ -1,5 +1,5 @@
-//! An edge or a photograph, smoothed or not, its gradient, and a probe. The edge is computed at
-//! once, a photograph by a job.
+//! An edge or a photograph, smoothed or not, its gradient, and a probe. The edge is computed
+//! immediately, a photograph by a job.
 
 use super::field::{Arrow, Edge, Field, GRID, noise_left, slope_left};
 use super::question::{Question, STILL_LIFE_SIZE, Source};
@@ -45,7 +45,7 @@ const BESIDE: Choice = Choice::new(
 );
 const SEED: Slider = Slider::seed(3.0);
 const KNOBS: &[Knob] = knobs![SOURCE, ANGLE, NOISE, SMOOTH, SIGMA, BESIDE, SEED];
-/// Ids of the settings that only the edge has.
+/// Ids of the settings that apply only to the edge.
 const OF_EDGE: [&str; 4] = [ANGLE.id, NOISE.id, SEED.id, BESIDE.id];
 const SLOTS: &[PhotoSlot] = &[slot(480)];
 /// Minimum side of a photograph, pixels: the width of its surface patch.
@@ -65,7 +65,7 @@ pub(super) struct Quality {
     pub(super) noise: f64,
 }
 
-/// Starts on the edge at any of its angles, slightly off the center.
+/// Initially on the edge at any of its angles, slightly off the center.
 const PROBE: Probe = Probe::new("probe", "image", "Probe")
     .over(GRID)
     .at(11.0, 10.0);
@@ -92,7 +92,7 @@ impl GradientField {
         })
     }
 
-    /// Returns the gradient shown, or a sentence on why there is none.
+    /// Returns the gradient shown, or a message why there is none.
     pub(super) fn field(&self) -> Result<&Field, &str> {
         if let Some(edge) = self.edge() {
             let look = || {
@@ -107,12 +107,12 @@ impl GradientField {
         answer.ok_or(self.asked.problem().unwrap_or(waiting))
     }
 
-    /// Returns why the requested photograph is missing, while an older one may be shown.
+    /// Returns the reason why the requested photograph is missing, while an older one may be shown.
     pub(super) fn problem(&self) -> Option<&str> {
         self.asked.problem().filter(|_| self.edge().is_none())
     }
 
-    /// Returns width and height of the image, pixels, even before it is there.
+    /// Returns width and height of the image, pixels, even before it is available.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
             0 => GRID,
@@ -185,7 +185,7 @@ impl GradientField {
         self.asked.ask(Question { source, smooth_px });
     }
 
-    /// Resets the probe and drops the last answer, because the image has changed.
+    /// Resets the probe and drops the last result, because the image has changed.
     fn begin(&mut self) {
         self.probe = match self.settings.chosen(&SOURCE) {
             0 => PROBE,

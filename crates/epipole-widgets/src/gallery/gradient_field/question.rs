@@ -17,11 +17,11 @@ pub(super) const STILL_LIFE_SIZE: (u32, u32) = (480, 360);
 pub(super) enum Source {
     /// The still life, not rendered yet.
     StillLife,
-    /// A photograph at hand.
+    /// An available photograph.
     Taken(Picture),
 }
 
-/// Everything that the answer depends on.
+/// All inputs of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) source: Source,

@@ -1,5 +1,5 @@
-//! The image with an arrow per pixel or cell; beside it the same as a surface, or slope and noise
-//! of the edge over the smoothing.
+//! The image with an arrow per pixel or cell; beside it the same image as a surface, or slope and
+//! noise of the edge over the smoothing.
 
 use super::field::{Arrow, Field, GRID};
 use super::model::{Beside, GradientField, SIGMA};
@@ -54,7 +54,7 @@ impl View for GradientFieldView {
             [image] = grid.row([aspect], PHONE[0]);
             [beside] = grid.shares([1.0], PHONE[1]);
         } else {
-            // On a broad page both fill the width and leave room for a caption.
+            // On a wide page both fill the width and leave room for a caption.
             let of_beside = if grid::is_broad(width) { 0.515 } else { 0.75 };
             [image, beside] = grid.row([aspect, of_beside], TALLEST);
         }
@@ -129,7 +129,7 @@ fn draw_pixels(field: &Field, panel: &Panel, canvas: &mut Canvas) {
     canvas.clipped(panel.rect, |canvas| {
         for (u, v, color) in field.picture().enumerate_pixels() {
             let (x, y) = panel.canvas_from_world((f64::from(u) - 0.5, f64::from(v) - 0.5));
-            // Slightly overlapping, so that no seams show.
+            // Squares overlap slightly, to avoid visible seams.
             let square = Rect::new(x, y, side + 0.5, side + 0.5);
             canvas.fill_color(square, color.0);
         }

@@ -39,7 +39,7 @@ const KNOBS: &[Knob] = knobs![SOURCE, THRESHOLD, K, WINDOW];
 const SLOTS: &[PhotoSlot] = &[slot(640)];
 /// Minimum side of a photograph, pixels: the largest window must fit.
 const MIN_SIDE_PX: u32 = 16;
-/// Larger eigenvalue below which a place is flat, not an edge, gray levels squared.
+/// Larger eigenvalue below which a pixel's neighborhood is flat, not an edge, gray levels squared.
 const FLAT: f64 = 400.0;
 
 /// Classification of a pixel's neighborhood.
@@ -59,7 +59,7 @@ pub(super) struct Probed {
     pub(super) verdict: Verdict,
 }
 
-/// Starts on a corner of the square.
+/// Initially on a corner of the square.
 const PROBE: Probe = Probe::new("probe", "picture", "Probe")
     .over(SQUARE_SIZE)
     .step(2.0)
@@ -74,7 +74,7 @@ pub struct Harris {
 }
 
 impl Harris {
-    /// Returns width and height of the picture, pixels, even before it is there.
+    /// Returns width and height of the picture, pixels, even before it is available.
     pub(super) fn size(&self) -> (u32, u32) {
         match self.settings.chosen(&SOURCE) {
             0 => SQUARE_SIZE,
@@ -87,7 +87,7 @@ impl Harris {
         self.settings.number(&THRESHOLD)
     }
 
-    /// Returns the smallest response that counts as a corner.
+    /// Returns the minimum response of a corner.
     fn threshold(&self, answer: &Answer) -> f32 {
         self.threshold_percent() as f32 / 100.0 * answer.strongest()
     }
@@ -139,7 +139,7 @@ impl Harris {
         });
     }
 
-    /// Resets the probe and drops the last answer, because the picture has changed.
+    /// Resets the probe and drops the last result, because the picture has changed.
     fn begin(&mut self) {
         self.probe = match self.settings.chosen(&SOURCE) {
             0 => PROBE,

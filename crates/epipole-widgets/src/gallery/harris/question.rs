@@ -25,7 +25,7 @@ const MAX_PEAKS: usize = 4000;
 /// Source of the picture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Source {
-    /// A tilted square on a plain ground, with a little noise.
+    /// A rotated square on a uniform background, with a little noise.
     Pattern,
     /// The rendered still life.
     StillLife,
@@ -33,7 +33,7 @@ pub(super) enum Source {
     Own(Picture),
 }
 
-/// Everything that the answer depends on.
+/// All inputs of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) source: Source,
@@ -54,8 +54,8 @@ pub(super) struct Answer {
     gray: OnceCell<GrayImage32>,
 }
 
-/// Returns gray levels divided by 8, the gain of Sobel's 3×3 filter, so that gradients are in gray
-/// levels per pixel.
+/// Returns gray levels divided by 8, the gain of the 3 × 3 Sobel filter, so that gradients are in
+/// gray levels per pixel.
 fn gray_levels(picture: &RgbImage) -> GrayImage32 {
     let mut gray = rgb_to_gray_f32(picture, &BT601_WEIGHTS);
     gray.pixels_mut()
@@ -114,7 +114,8 @@ impl question::Question for Question {
 }
 
 impl Answer {
-    /// Returns the largest response of the picture; positive, so that fractions of it are defined.
+    /// Returns the maximum response of the picture, always positive, so that fractions of it are
+    /// defined.
     pub(super) fn strongest(&self) -> f32 {
         let first = self.peaks.first();
         first.map_or(f32::MIN_POSITIVE, |&(u, v)| {

@@ -9,7 +9,7 @@ use crate::kit::heat::{self, Fill, Heat, Signed};
 use crate::theme::{Role, Theme};
 use image::RgbImage;
 
-/// Maximum height of a photograph, CSS pixels, so that the rest stays on the screen.
+/// Maximum height of a photograph, CSS pixels, to leave room for the rest.
 const TALLEST: f64 = 404.0;
 const LEGEND: f64 = 30.0;
 
@@ -82,7 +82,7 @@ fn colored(answer: &Answer, theme: Theme) -> RgbImage {
     let (colors, strongest) = (Signed::of(theme), answer.strongest());
     RgbImage::from_fn(answer.response.width(), answer.response.height(), |u, v| {
         let relative = answer.response.get_pixel(u, v).0[0] / strongest;
-        // The fourth root shows weak responses beside strong ones.
+        // The fourth root makes weak responses visible beside strong ones.
         let strength = relative.abs().min(1.0).sqrt().sqrt();
         image::Rgb(colors.at((u, v), relative < 0.0, strength, 0.45))
     })

@@ -1,4 +1,4 @@
-//! `homography-drag`: four corners of a rectangle straighten its plane, and a ruler measures on it.
+//! `homography-drag`: four corners of a rectangle rectify its plane, and a ruler measures on it.
 
 mod model;
 mod view;

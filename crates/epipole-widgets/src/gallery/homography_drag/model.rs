@@ -1,4 +1,4 @@
-//! Four corners in a photograph, the rectangle that they belong to, and a ruler on its plane.
+//! Four corners in a photograph, the corresponding rectangle, and a ruler on its plane.
 
 use crate::contract::{
     Challenge, Choice, Control, Data, Datum, Declared, Event, Handle, Knob, Model, PhotoSlot,
@@ -52,7 +52,7 @@ fn cm_words((x, y): (f64, f64)) -> String {
     format!("{x:.1} cm across, {y:.1} cm down")
 }
 
-/// The camera of the photograph: it sees the cloth whole, and the pictures on the wall.
+/// Returns the camera of the photograph, which sees the whole cloth and the pictures on the wall.
 pub(super) fn camera() -> PosedCamera {
     let (width, height) = PHOTO_SIZE;
     let eye = Point3::new(-0.42, -0.84, -1.66);
@@ -64,7 +64,7 @@ pub(super) fn camera() -> PosedCamera {
     }
 }
 
-/// Returns the pixels of four points of the world that the camera sees.
+/// Returns the pixels of four visible points of the world.
 fn pixels_of(points: &[Point3<f64>; 4]) -> [(f64, f64); 4] {
     let camera = camera();
     points.map(|point| {
@@ -83,12 +83,12 @@ pub(crate) struct HomographyDrag {
 }
 
 impl HomographyDrag {
-    /// Returns the reader's own photograph, if it is shown.
+    /// Returns the reader's photograph, if it is shown.
     pub(super) fn own(&self) -> Option<&Picture> {
         self.own.get(0).filter(|_| self.is_own())
     }
 
-    /// Returns whether the photograph is the reader's own, even if it has still to be chosen.
+    /// Returns whether the photograph is the reader's own, even if not chosen yet.
     pub(super) fn is_own(&self) -> bool {
         self.settings.chosen(&SOURCE) == OWN
     }
@@ -114,7 +114,7 @@ impl HomographyDrag {
         [(0.0, 0.0), (x, 0.0), (x, y), (0.0, y)].map(|(x, y)| Point2::new(x, y))
     }
 
-    /// Returns the range of the plane that is shown, cm: columns, then rows.
+    /// Returns the visible range of the plane, cm: columns, then rows.
     pub(super) fn range_cm(&self) -> [[f64; 2]; 2] {
         let (width, height) = self.sides_cm();
         let margin = (MARGIN * width.max(height)).ceil();
@@ -132,8 +132,7 @@ impl HomographyDrag {
 
     /// Returns the homography from pixels to cm on the plane, positive in front of the horizon.
     ///
-    /// # Errors
-    /// A sentence if the corners do not give one.
+    /// # Errors A message if the corners do not determine one.
     pub(super) fn plane_from_photo(&self) -> Result<Matrix3<f64>, &'static str> {
         if self.wants_photos() {
             return Err(NO_PHOTO);
@@ -160,7 +159,7 @@ impl HomographyDrag {
         (to - from).norm()
     }
 
-    /// Returns the distance between the places of the scene that the ends of the ruler show, cm.
+    /// Returns the distance between the points of the scene at the ends of the ruler, cm.
     pub(super) fn true_length_cm(&self) -> Option<f64> {
         if self.is_own() {
             return None;
@@ -173,12 +172,12 @@ impl HomographyDrag {
         Some(100.0 * (to?.point - from?.point).norm())
     }
 
-    /// Returns the largest distance of a corner from that of the cloth, pixels.
+    /// Returns the maximum distance of a corner from that of the cloth, pixels.
     pub(super) fn off_cloth_px(&self) -> Option<f64> {
         (!self.is_own()).then(|| self.off_px(&still_life_cloth()))
     }
 
-    /// Returns the largest distance of a corner from the image of the same corner of a rectangle in
+    /// Returns the maximum distance of a corner from the image of the same corner of a rectangle in
     /// the world, pixels.
     fn off_px(&self, rectangle: &[Point3<f64>; 4]) -> f64 {
         let pairs = self.corners().into_iter().zip(pixels_of(rectangle));
@@ -187,7 +186,7 @@ impl HomographyDrag {
             .fold(0.0, f64::max)
     }
 
-    /// Puts corners and ruler in their places at the start, for a new photograph.
+    /// Moves corners and ruler to their initial positions, for a new photograph.
     fn begin(&mut self) {
         let (width, height) = self.size();
         let places = match self.own() {
@@ -238,7 +237,7 @@ impl Model for HomographyDrag {
         probes.map(|probe| probe.handle()).collect()
     }
 
-    /// The corners in the photograph and on the plane, and the homography between them.
+    /// Returns the corners in the photograph and on the plane, and the homography between them.
     fn data(&self) -> Data {
         let mut data = Data::from([
             ("pixels", Datum::points(&self.corners())),
@@ -276,7 +275,7 @@ impl Model for HomographyDrag {
     }
 }
 
-/// Largest distance of a corner from its place that counts as there, pixels.
+/// Maximum distance of a corner that counts as placed correctly, pixels.
 const THERE_PX: f64 = 4.0;
 
 const CHALLENGES: &[Challenge<HomographyDrag>] = &[

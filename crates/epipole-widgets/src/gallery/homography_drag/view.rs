@@ -1,4 +1,4 @@
-//! The photograph with its four corners, and the plane seen from straight above, with the ruler.
+//! The photograph with its four corners, and the plane seen from directly above, with the ruler.
 
 use super::model::{HomographyDrag, camera};
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
@@ -102,13 +102,13 @@ impl View for HomographyDragView {
     }
 }
 
-/// Creates the panel of a range of the plane, in the middle of a cell, with one scale for both
+/// Creates the panel for a range of the plane, centered in a cell, with one scale for both
 /// directions.
 fn plane_panel(cell: Rect, [x, y]: [[f64; 2]; 2]) -> Panel {
     let half = |[low, high]: [f64; 2]| (high - low) / 2.0;
     let middle = |[low, high]: [f64; 2]| (high + low) / 2.0;
     let scale = (cell.width / half(x)).min(cell.height / half(y)) / 2.0;
-    // Rounding must not leave out an end of the range.
+    // Rounding must not cut off an end of the range.
     let shown = |range: [f64; 2], side: f64| {
         let half = side / scale / 2.0;
         [
@@ -119,7 +119,7 @@ fn plane_panel(cell: Rect, [x, y]: [[f64; 2]; 2]) -> Panel {
     Panel::new("plane", cell, shown(x, cell.width), shown(y, cell.height))
 }
 
-/// Draws the quadrilateral with its corners, and the ruler as the photograph shows it.
+/// Draws the quadrilateral with its corners, and the ruler in the photograph.
 fn draw_photo_marks(model: &HomographyDrag, panel: &Panel, canvas: &mut Canvas) {
     let corners = model.corners().map(|corner| panel.place_of(&corner));
     canvas.polygon_outline(&corners, Stroke::solid(OUTLINE, 2.0).cased());

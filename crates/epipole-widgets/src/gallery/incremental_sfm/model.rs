@@ -1,4 +1,4 @@
-//! Photographs on an arc, the steps of their reconstruction, and the step that is shown.
+//! Photographs on an arc, the steps of their reconstruction, and the current step.
 
 use super::question::{Answer, Question};
 use super::steps::Step;
@@ -33,7 +33,7 @@ pub(crate) struct IncrementalSfm {
 }
 
 impl IncrementalSfm {
-    /// Returns the answer to the current question; `None` while it is computed.
+    /// Returns the result for the current settings; `None` while it is computed.
     pub(super) fn answer(&self) -> Option<&Answer> {
         let is_waiting = self.asked.is_waiting();
         self.asked.answer().filter(|_| !is_waiting)
@@ -58,18 +58,18 @@ impl IncrementalSfm {
         self.timeline.place(self.last())
     }
 
-    /// Returns the step that is shown.
+    /// Returns the current step.
     pub(super) fn step(&self) -> Option<&Step> {
         self.answer()?.steps.get(self.timeline.frame(self.last()))
     }
 
-    /// Returns the photograph that is registered next, if there is one.
+    /// Returns the next photograph to register, if any.
     pub(super) fn next(&self) -> Option<usize> {
         let next = self.timeline.frame(self.last()) + 1;
         Some(self.answer()?.steps.get(next)?.newest)
     }
 
-    /// Returns the photographs in order of registration; those that are never registered come last.
+    /// Returns the photographs in order of registration; those never registered come last.
     pub(super) fn order(&self) -> Vec<usize> {
         let Some(answer) = self.answer() else {
             return Vec::new();

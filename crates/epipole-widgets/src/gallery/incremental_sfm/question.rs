@@ -24,11 +24,11 @@ pub(super) const TARGET: [f64; 3] = [0.02, -0.14, 0.05];
 const DISTANCE_M: f64 = 1.3;
 const HEIGHT_M: f64 = 0.42;
 
-/// Photographs, and what it takes to register one.
+/// Photographs, and the thresholds of registration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) num_photographs: usize,
-    /// Angle between neighbors, seen from the target, degrees.
+    /// Angle between neighbors as seen from the target, degrees.
     pub(super) apart_deg: f64,
     /// Minimum number of inliers of a pair and of a pose.
     pub(super) min_num_inliers: usize,
@@ -37,7 +37,7 @@ pub(super) struct Question {
 /// The photographs, and the state after each step.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
-    /// From left to right.
+    /// Photographs from left to right.
     pub(super) pictures: Vec<Picture>,
     pub(super) steps: Vec<Step>,
 }

@@ -1,4 +1,4 @@
-//! A reconstruction that grows, in the frame of the true world, after each of its steps.
+//! Steps of a growing reconstruction, in the ground-truth frame.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::question::tell;
@@ -11,35 +11,36 @@ use nalgebra::{Point3, Similarity3};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 
-/// Maximum number of points that a step keeps.
+/// Maximum number of points per step.
 const MAX_POINTS: usize = 1000;
 
 /// A feature: its photograph, and its index there.
 type Feature = (usize, usize);
 
-/// The state after a step.
+/// State after a step.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Step {
-    /// The photograph registered last.
+    /// Photograph registered last.
     pub(super) newest: usize,
-    /// Poses of the cameras that are registered.
+    /// Poses of the registered cameras.
     pub(super) cam_from_world: Vec<Option<RigidTransform>>,
     /// Points with their colors, at most [`MAX_POINTS`].
     pub(super) points: Vec<([f32; 3], [u8; 3])>,
     pub(super) num_points: usize,
     /// Mean reprojection error, pixels.
     pub(super) error_px: f64,
-    /// Number of points that each photograph sees; those of an unregistered one by its matches.
+    /// Number of points visible in each photograph; for an unregistered one according to its
+    /// matches.
     pub(super) num_seen: Vec<usize>,
-    /// Features of the newest photograph that had a point before it was registered, and whether
-    /// they agree with its pose.
+    /// Features of the newest photograph that had a point before its registration, and whether they
+    /// are inliers of its pose.
     pub(super) sights: Vec<([f64; 2], bool)>,
-    /// Root mean square distance of the cameras after the first from their true places, meters.
+    /// Root mean square distance of the cameras after the first from their true positions, meters.
     pub(super) off_m: f64,
 }
 
 impl Step {
-    /// Returns whether it can be a step with this many photographs, without NaN.
+    /// Returns whether it is consistent for this number of photographs, without NaN.
     pub(super) fn is_sound(&self, num_photographs: usize) -> bool {
         let poses = self.cam_from_world.iter().flatten();
         let places = self.points.iter().flat_map(|(place, _)| place);
@@ -62,10 +63,9 @@ impl Step {
 /// Reconstructs, and returns the state after the start and after each registration; refinements
 /// without a new photograph belong to the step before them.
 ///
-/// * `truth`: the cameras that took the photographs
+/// * `truth`: true cameras of the photographs
 ///
-/// # Errors
-/// As [`IncrementalReconstruction::new`]; where no pair is good enough to start from.
+/// # Errors As [`IncrementalReconstruction::new`], and if no pair is suitable as a start.
 pub(super) fn follow(
     input: &SfmInput,
     truth: &[PosedCamera],
@@ -80,7 +80,7 @@ pub(super) fn follow(
     while let Some(step) = run.step(&mut ())? {
         tell(progress, steps.len() as f64 / truth.len() as f64)?;
         let newest = match step {
-            // Photographs that join no others would start a second reconstruction.
+            // Photographs that do not connect to the others would start a second reconstruction.
             SfmStep::Started { .. } if start.is_some() => break,
             SfmStep::Started { images, .. } => {
                 start = Some(images);
@@ -157,7 +157,7 @@ fn sights(
         .collect()
 }
 
-/// Returns the state of a reconstruction, moved into the true world.
+/// Returns the state of a reconstruction, transformed to the ground-truth frame.
 fn state(
     found: &Reconstruction,
     (start, truth): ([usize; 2], &[PosedCamera]),
@@ -200,8 +200,8 @@ fn state(
     }
 }
 
-/// Returns the similarity that moves the first camera to its true pose and makes its distance from
-/// the second the true one; `None` unless both are registered.
+/// Returns the similarity that moves the first camera to its true pose, scaled by the true distance
+/// to the second camera; `None` unless both are registered.
 fn true_from_found(
     found: &Reconstruction,
     start: [usize; 2],

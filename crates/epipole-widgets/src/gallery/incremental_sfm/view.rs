@@ -1,5 +1,5 @@
-//! The newest photograph with the points it sees, the points that each photograph sees, and cameras
-//! and points in space.
+//! The newest photograph with its visible points, the number of points in each photograph, and
+//! cameras and points in 3D.
 
 use super::model::IncrementalSfm;
 use super::question::{Answer, SIZE, TARGET};
@@ -17,13 +17,13 @@ use nalgebra::{Point3, Vector3};
 
 /// Height over width of a photograph.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Distance of the photographs from their cameras, as drawn, meters.
+/// Distance at which photographs are drawn from their cameras, meters.
 const CAMERA_M: f64 = 0.2;
 /// Width of a bar, in steps.
 const BAR: f64 = 0.72;
 /// Maximum number of rays from the newest camera.
 const MOST_RAYS: usize = 24;
-/// Radius of the space shown, and its middle relative to the target, meters.
+/// Radius of the visible scene, and its center relative to the target, meters.
 const RADIUS_M: f64 = 0.97;
 const MIDDLE_M: [f64; 3] = [-0.04, 0.02, -0.08];
 
@@ -31,7 +31,7 @@ const MIDDLE_M: [f64; 3] = [-0.04, 0.02, -0.08];
 #[derive(Default)]
 pub(crate) struct IncrementalSfmView;
 
-/// Returns the axes of the bars: steps, where the two photographs of the start are at −1 and 0, and
+/// Returns the axes of the bars: steps, with the two photographs of the start at −1 and 0, and
 /// numbers of points.
 fn rulers(model: &IncrementalSfm) -> [Ruler; 2] {
     let count = model.question().num_photographs as f64;
@@ -150,7 +150,7 @@ fn draw_bars(model: &IncrementalSfm, step: &Step, panel: &Panel, canvas: &mut Ca
 }
 
 /// Draws the cameras with their photographs, the points, rays of the newest camera, and rings at
-/// the true places.
+/// the true positions.
 fn draw_space(
     model: &IncrementalSfm,
     (answer, step): (&Answer, &Step),

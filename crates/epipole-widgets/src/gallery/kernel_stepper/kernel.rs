@@ -28,12 +28,12 @@ impl Kernel {
         Self { weights, divisor }
     }
 
-    /// Returns the centered difference, whose answer is the slope.
+    /// Returns the centered difference, whose output is the slope.
     pub(super) fn difference(turned: bool) -> Self {
         Self::outer(SLOPE, ALONE, 2.0, turned)
     }
 
-    /// Returns Sobel's filter, whose answer is the slope if `divisor` is 8.
+    /// Returns the Sobel filter, whose output is the slope if `divisor` is 8.
     pub(super) fn sobel(divisor: f32, turned: bool) -> Self {
         Self::outer(SLOPE, SMOOTH, divisor, turned)
     }
@@ -53,12 +53,12 @@ impl Kernel {
         self.weights.iter().all(|weight| *weight == 0.0)
     }
 
-    /// Whether the weights sum to zero, so that flat regions answer 0.
+    /// Whether the weights sum to zero, so that the output is 0 in flat regions.
     pub(super) fn is_difference(&self) -> bool {
         self.weights.iter().sum::<f32>() == 0.0
     }
 
-    /// Whether the kernel only fetches a neighbor.
+    /// Whether the kernel only copies a neighbor.
     pub(super) fn is_shift(&self) -> bool {
         let used = |index: &usize| self.weights[*index] != 0.0;
         let used: Vec<usize> = (0..9).filter(used).collect();

@@ -1,5 +1,5 @@
 //! `kernel-stepper`: a small window over enlarged pixels, with the products, their sum and the
-//! answer.
+//! output.
 
 mod kernel;
 mod model;

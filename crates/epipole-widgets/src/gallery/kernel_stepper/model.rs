@@ -1,4 +1,4 @@
-//! A small image, a kernel, a border, and a window that steps from pixel to pixel.
+//! A small image, a kernel, a border, and a window that moves from pixel to pixel.
 
 use super::kernel::Kernel;
 use super::pixels::{self, SIZE};
@@ -88,7 +88,7 @@ impl KernelStepper {
         }
     }
 
-    /// Returns the reader's own kernel, even while another one is chosen.
+    /// Returns the reader's kernel, even while another one is chosen.
     pub(super) fn own(&self) -> Kernel {
         Kernel {
             weights: std::array::from_fn(|index| self.settings.number(&WEIGHTS[index]) as f32),
@@ -108,7 +108,7 @@ impl KernelStepper {
         borders[self.settings.chosen(&BORDER)]
     }
 
-    /// Returns the gray level at a place inside the image or beyond its border.
+    /// Returns the gray level at a position inside the image or beyond its border.
     pub(super) fn level(&self, u: i32, v: i32) -> f32 {
         self.border().value(&self.image, u as isize, v as isize)
     }
@@ -128,12 +128,12 @@ impl KernelStepper {
         sums.map_or(0.0, |sums| f64::from(sums.get_pixel(u, v).0[0]))
     }
 
-    /// Returns the answer of the filter at a pixel: the sum over the divisor.
+    /// Returns the output of the filter at a pixel: the sum divided by the divisor.
     pub(super) fn answer(&self, pixel: (u32, u32)) -> f64 {
         self.sum(pixel) / f64::from(self.kernel().divisor)
     }
 
-    /// Returns a sentence on a filter that failed or a kernel of zeros.
+    /// Returns a message for a failed filter or a kernel of zeros.
     pub(super) fn remark(&self) -> Option<&str> {
         match &self.sums {
             Err(sentence) => Some(sentence),

@@ -1,4 +1,4 @@
-//! Two images small enough to print every gray level.
+//! Two images small enough to show every gray level as a number.
 
 use epipole::imaging::GrayImage32;
 use image::Luma;
@@ -6,7 +6,7 @@ use image::Luma;
 /// Columns and rows.
 pub(super) const SIZE: (u32, u32) = (8, 6);
 
-/// A bright corner. Around column 3, row 2 is the patch that the chapter works by hand.
+/// A bright corner. Row 2 around column 3 contains the patch that the chapter computes by hand.
 const PATCH: [[u8; 8]; 6] = [
     [20, 25, 28, 45, 80, 110, 118, 120],
     [22, 26, 30, 60, 90, 125, 130, 128],
@@ -16,7 +16,7 @@ const PATCH: [[u8; 8]; 6] = [
     [30, 60, 110, 150, 156, 155, 153, 151],
 ];
 
-/// Left and top of the cutout from the rendered still life of 480 × 360 pixels.
+/// Left and top of the crop from the rendered still life of 480 × 360 pixels.
 #[cfg(test)]
 const FROM: (u32, u32) = (290, 212);
 

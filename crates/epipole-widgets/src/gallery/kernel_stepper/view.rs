@@ -1,4 +1,4 @@
-//! The pixels with their numbers, the nine products in the window, and the answer at every pixel.
+//! The pixels with their values, the nine products in the window, and the output at every pixel.
 
 use super::model::KernelStepper;
 use super::pixels::SIZE;
@@ -90,12 +90,12 @@ fn draw_pixels(model: &KernelStepper, panel: &Panel, canvas: &mut Canvas) {
     canvas.stroke_rect(middle.inset(1.0), Stroke::solid(Role::Grip, 1.5));
 }
 
-/// Draws window, weights and products, stacked or on a phone side by side, and their sum.
+/// Draws window, weights and products, in a column or, on a phone, side by side, and their sum.
 fn draw_products(model: &KernelStepper, rect: Rect, narrow: bool, canvas: &mut Canvas) {
     let (window, kernel) = (model.window(), model.kernel());
     let products: [f32; 9] = std::array::from_fn(|index| window[index] * kernel.weights[index]);
     let room = Rect::new(rect.x, rect.y, rect.width, rect.height - SUM);
-    // In the stack each title is above its table, and the first one above the panel.
+    // In a column each title is above its table, and the first one above the panel.
     let tables = match narrow {
         true => grid::columns(room, [1.0; 3]),
         false => grid::stack(room, [1.0; 3]),

@@ -1,4 +1,4 @@
-//! The gradients around a keypoint of the turned photograph, their histogram and its peaks.
+//! Gradients around a keypoint of the rotated photograph, their histogram and its peaks.
 
 use crate::kit::changed::{Change, MIDDLE};
 use crate::kit::patch::Spot;
@@ -13,26 +13,26 @@ pub(super) const NUM_BINS: usize = 36;
 pub(super) const SPREAD_SIGMAS: f64 = 1.5;
 /// Radius of the window, in units of the keypoint's scale.
 pub(super) const RADIUS_SIGMAS: f64 = 3.0 * SPREAD_SIGMAS;
-/// Half size of the shown piece, pixels.
+/// Half size of the crop shown, pixels.
 pub(super) const SHOWN_PX: u32 = 28;
-/// Side of the shown piece, pixels.
+/// Side of the crop shown, pixels.
 const SIDE_PX: u32 = 2 * SHOWN_PX + 1;
 /// Side of a normalized patch, pixels.
 const PATCH_PX: u32 = 32;
 
-/// Surroundings of a keypoint after a turn of the photograph.
+/// Neighborhood of a keypoint after a rotation of the photograph.
 pub(super) struct Surroundings {
     piece: GrayImage32,
-    /// The piece, blurred to the keypoint's scale.
+    /// Crop, blurred to the keypoint's scale.
     smooth: GrayImage32,
     scale_px: f64,
     /// Sum of weighted gradients by direction, from −180°.
     pub(super) histogram: [f32; NUM_BINS],
-    /// Directions of the peaks of at least 80%, strongest first, at most two.
+    /// Directions of the peaks of at least 80% of the highest, strongest first, at most two.
     pub(super) peaks_rad: Vec<f64>,
 }
 
-/// A gradient in the window, as it counts in the histogram.
+/// A gradient in the window, as it contributes to the histogram.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gradient {
     /// Offset from the keypoint, pixels.
@@ -47,7 +47,7 @@ pub(super) fn options() -> SiftOptions {
 }
 
 impl Surroundings {
-    /// Turns the photograph about a place, and measures there.
+    /// Rotates the photograph about a point, and computes the neighborhood there.
     ///
     /// # Errors
     /// As [`sift_directions`].
@@ -82,7 +82,7 @@ impl Surroundings {
         self.scale_px
     }
 
-    /// Returns the keypoint in the shown piece with one of its orientations.
+    /// Returns the keypoint in the crop with one of its orientations.
     pub(super) fn spot(&self, angle_rad: f64) -> Spot {
         Spot {
             place: [f64::from(SHOWN_PX); 2],
@@ -91,7 +91,7 @@ impl Surroundings {
         }
     }
 
-    /// Returns the piece around the keypoint.
+    /// Returns the crop around the keypoint.
     pub(super) fn picture(&self) -> RgbImage {
         let first = MIDDLE as u32 - SHOWN_PX;
         RgbImage::from_fn(SIDE_PX, SIDE_PX, |u, v| {
@@ -100,7 +100,7 @@ impl Surroundings {
         })
     }
 
-    /// Returns the descriptor's window, turned so that the strongest peak points right.
+    /// Returns the descriptor's window, rotated so that the strongest peak points right.
     pub(super) fn normalized(&self) -> RgbImage {
         let spot = Spot {
             place: [MIDDLE; 2],
@@ -159,7 +159,7 @@ impl Surroundings {
 }
 
 impl Gradient {
-    /// Returns the bin of the histogram that is nearest to its direction.
+    /// Returns the histogram bin of its direction.
     pub(super) fn bin(&self) -> usize {
         let (du, dv) = self.weighted;
         bin_of(libm::atan2(dv, du))
@@ -170,7 +170,7 @@ impl Gradient {
     }
 }
 
-/// Returns the bin that is nearest to an angle in [−π, π].
+/// Returns the bin nearest to an angle in [−π, π].
 pub(super) fn bin_of(angle_rad: f64) -> usize {
     let turns = angle_rad / std::f64::consts::TAU + 0.5;
     (turns * NUM_BINS as f64).round() as usize % NUM_BINS

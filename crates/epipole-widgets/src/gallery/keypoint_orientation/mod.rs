@@ -1,4 +1,4 @@
-//! `keypoint-orientation`: the histogram of gradients that gives a keypoint its orientation.
+//! `keypoint-orientation`: the gradient histogram that determines a keypoint's orientation.
 
 mod gradients;
 mod model;

@@ -1,4 +1,4 @@
-//! A keypoint, a turn of the photograph, and the orientation found before and after.
+//! A keypoint, a rotation of the photograph, and the orientation found before and after.
 
 use super::gradients::Surroundings;
 use super::question::Question;
@@ -32,19 +32,19 @@ pub(crate) struct KeypointOrientation {
     pub(super) keypoint: Probe,
     pub(super) asked: Computation<Question>,
     gray: Option<GrayImage32>,
-    /// Before and after the turn.
+    /// Neighborhoods before and after the rotation.
     found: Option<[Surroundings; 2]>,
     version: u64,
 }
 
 impl KeypointOrientation {
-    /// Returns the surroundings of the keypoint before and after the turn, once the photograph is
-    /// there.
+    /// Returns the neighborhoods of the keypoint before and after the rotation, once the photograph
+    /// is available.
     pub(super) fn found(&self) -> Option<&[Surroundings; 2]> {
         self.found.as_ref()
     }
 
-    /// Returns a number that changes with the surroundings.
+    /// Returns a version number of the neighborhoods.
     pub(super) fn version(&self) -> u64 {
         self.version
     }
@@ -57,19 +57,19 @@ impl KeypointOrientation {
         self.settings.number(&SCALE)
     }
 
-    /// Returns the orientations before and after the turn, degrees.
+    /// Returns the orientations before and after the rotation, degrees.
     pub(super) fn orientations_deg(&self) -> Option<[f64; 2]> {
         let first = |found: &Surroundings| found.peaks_rad.first().map(|rad| rad.to_degrees());
         let [before, after] = self.found()?;
         Some([first(before)?, first(after)?])
     }
 
-    /// Returns the second peak after the turn, relative to the first.
+    /// Returns the second peak after the rotation, relative to the first.
     pub(super) fn second(&self) -> Option<f64> {
         Some(self.found()?[1].second())
     }
 
-    /// Returns the number of keypoints that SIFT makes here.
+    /// Returns the number of keypoints that SIFT creates here, one per orientation.
     pub(super) fn num_keypoints(&self) -> Option<usize> {
         Some(self.found()?[1].peaks_rad.len())
     }

@@ -1,5 +1,5 @@
-//! The photograph with the window; the window after the turn with its gradients; their histogram;
-//! and the normalized patch before and after.
+//! The photograph with the window; the window after the rotation with its gradients; their
+//! histogram; and the normalized patch before and after.
 
 use super::gradients::{NUM_BINS, RADIUS_SIGMAS, SHOWN_PX, Surroundings, bin_of, options};
 use super::model::KeypointOrientation;
@@ -16,17 +16,17 @@ use image::RgbImage;
 
 /// Height over width of the photograph.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Height of the window's row, and of the row below it, CSS pixels: on a phone and wider.
+/// Height of the window's row, and of the row below it, CSS pixels: on a phone and on wider pages.
 const ROWS: [[f64; 2]; 2] = [[150.0, 156.0], [250.0, 140.0]];
-/// Height of everything on a broad page, CSS pixels.
+/// Total height on a wide page, CSS pixels.
 const BROAD: f64 = 408.0;
-/// Distance between arrows in a small panel and in others, CSS pixels.
+/// Spacing of arrows in small panels and in others, CSS pixels.
 const APART: [f64; 2] = [8.0, 15.0];
 /// Width below which a panel is small, CSS pixels.
 const SMALL_PANEL: f64 = 200.0;
-/// Length of the longest arrow relative to their distance.
+/// Length of the longest arrow relative to their spacing.
 const LONGEST: f64 = 1.6;
-/// Arrows shorter than this are left out, CSS pixels.
+/// Length below which arrows are omitted, CSS pixels.
 const SHORTEST: f64 = 3.0;
 /// End of an orientation's hand, relative to the radius of the window.
 const HAND: f64 = 1.28;
@@ -156,7 +156,7 @@ impl View for KeypointOrientationView {
     }
 }
 
-/// Returns the role of the peak to which a bin belongs, itself or a neighbor.
+/// Returns the role of the peak that a bin belongs to, itself or a neighbor.
 fn role_of(found: &Surroundings, bin: usize) -> Option<Role> {
     let is_near = |peak_rad: &f64| {
         let apart = bin_of(*peak_rad).abs_diff(bin);

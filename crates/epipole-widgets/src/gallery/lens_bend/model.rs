@@ -1,4 +1,4 @@
-//! A lens, the reader's guess at it, and straight edges of the scene seen through both.
+//! A lens, the reader's guess for it, and straight edges of the scene through both.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Knob, Model, Problem, Settings, Slider, knobs,
@@ -11,7 +11,8 @@ use nalgebra::{Point2, Point3};
 /// Size of the photograph, pixels, and its focal length.
 pub(super) const SIZE: (u32, u32) = (400, 300);
 const FOCAL_PX: f64 = 300.0;
-/// Size of the wider photograph without distortion that it is made from, of the same focal length.
+/// Size of the wider photograph without distortion, from which the other is made; it has the same
+/// focal length.
 pub(super) const SHARP_SIZE: (u32, u32) = (580, 436);
 
 const K1: Slider = Slider::new("k1", "Lens k₁")
@@ -36,7 +37,7 @@ const KNOBS: &[Knob] = knobs![K1, GUESS1, K2, GUESS2];
 
 /// Points along each edge.
 const NUM_POINTS: usize = 25;
-/// Bend that counts as straight, pixels.
+/// Maximum bend of an edge that counts as straight, pixels.
 const STRAIGHT_PX: f64 = 0.3;
 
 /// An edge of the scene, as a polyline in pixels.
@@ -44,7 +45,7 @@ const STRAIGHT_PX: f64 = 0.3;
 pub(super) struct Edge(pub(super) Vec<Point2<f64>>);
 
 impl Edge {
-    /// Returns the largest distance of its points from the line through its ends, pixels.
+    /// Returns the maximum distance of its points from the line through its ends, pixels.
     pub(super) fn bend_px(&self) -> f64 {
         let (Some(first), Some(last)) = (self.0.first(), self.0.last()) else {
             return 0.0;
@@ -60,8 +61,8 @@ impl Edge {
     }
 }
 
-/// Straight edges of the scene, meters: the landscape's frame below and on the left, a frame on
-/// the right, the table in front, the cloth on the left.
+/// Returns straight edges of the scene, meters: the landscape's frame below and on the left, a
+/// frame on the right, the table in front, the cloth on the left.
 fn edges() -> [[Point3<f64>; 2]; 5] {
     let [upper_left, _, lower_right, lower_left] = still_life_landscape();
     let [far_left, _, _, near_left] = still_life_cloth();
@@ -75,7 +76,7 @@ fn edges() -> [[Point3<f64>; 2]; 5] {
     ]
 }
 
-/// Returns the camera without its lens, for a photograph of this size.
+/// Returns the camera without distortion, for a photograph of this size.
 pub(super) fn camera((width, height): (u32, u32)) -> PosedCamera {
     PosedCamera {
         camera: Camera::pinhole(intrinsics((width, height)), width, height),
@@ -88,12 +89,12 @@ pub(super) fn intrinsics((width, height): (u32, u32)) -> Intrinsics {
     Intrinsics::centered(FOCAL_PX, width, height).expect("the focal length is positive")
 }
 
-/// Returns the pixel of a ray (x, y, 1) without a lens.
+/// Returns the pixel of a ray (x, y, 1) without distortion.
 pub(super) fn pixel(ray: &Point2<f64>, intrinsics: &Intrinsics) -> Point2<f64> {
     ray * intrinsics.fu_px() + intrinsics.principal_point().coords
 }
 
-/// Returns the ray (x, y, 1) of a pixel without a lens.
+/// Returns the ray (x, y, 1) of a pixel without distortion.
 pub(super) fn ray(pixel: &Point2<f64>, intrinsics: &Intrinsics) -> Point2<f64> {
     intrinsics.ray(pixel).xy().into()
 }
@@ -112,15 +113,15 @@ impl LensBend {
         radial(self.settings.number(&GUESS1), self.settings.number(&GUESS2))
     }
 
-    /// Returns the ratio of the distances of a corner of the photograph from its middle, with and
-    /// without the lens.
+    /// Returns the ratio of a corner's distances from the center of the photograph, with and
+    /// without distortion.
     pub(super) fn corner_factor(&self) -> f64 {
         let (width, height) = SIZE;
         let ray = Point2::new(f64::from(width) / 2.0, f64::from(height) / 2.0) / FOCAL_PX;
         self.lens().distort(&ray).coords.norm() / ray.coords.norm()
     }
 
-    /// Returns the edges as the lens bends them.
+    /// Returns the edges distorted by the lens.
     pub(super) fn bent(&self) -> Vec<Edge> {
         let (lens, intrinsics) = (self.lens(), intrinsics(SIZE));
         let cam_from_world = camera(SIZE).cam_from_world;
@@ -137,7 +138,7 @@ impl LensBend {
         bent.into()
     }
 
-    /// Returns the edges as the reader's guess straightens them.
+    /// Returns the edges undistorted by the reader's guess.
     pub(super) fn corrected(&self) -> Vec<Edge> {
         let (guess, intrinsics) = (self.guess(), intrinsics(SIZE));
         let straighten = |point: &Point2<f64>| {
@@ -157,7 +158,7 @@ fn radial(k1: f64, k2: f64) -> Distortion {
     }
 }
 
-/// Returns the largest bend of some edges, pixels.
+/// Returns the maximum bend of some edges, pixels.
 pub(super) fn worst_px(edges: &[Edge]) -> f64 {
     edges.iter().map(Edge::bend_px).fold(0.0, f64::max)
 }

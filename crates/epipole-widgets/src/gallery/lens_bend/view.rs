@@ -1,4 +1,4 @@
-//! The photograph through the lens, and the same as the reader's guess straightens it.
+//! The photograph through the lens, and the same undistorted by the reader's guess.
 
 use super::model::{Edge, LensBend, SHARP_SIZE, SIZE, camera, intrinsics, pixel, ray};
 use crate::canvas::{Canvas, Place, Stroke};
@@ -21,7 +21,7 @@ const NODE: u32 = 8;
 #[derive(Default)]
 pub(crate) struct LensBendView {
     photo: Photo,
-    /// Slices of the sharp photograph that are done.
+    /// Number of finished slices of the sharp photograph.
     num_slices: u32,
     taken: Option<(Distortion, u32, RgbImage)>,
 }
@@ -129,7 +129,7 @@ fn through(lens: &Distortion) -> epipole::Result<PixelMap> {
     PixelMap::from_fn(width, height, source, &mut ())
 }
 
-/// Returns a photograph with a distortion taken out.
+/// Returns the photograph undistorted.
 fn straightened(guess: &Distortion, taken: &RgbImage) -> epipole::Result<RgbImage> {
     let (width, height) = SIZE;
     let intrinsics = intrinsics(SIZE);
@@ -140,7 +140,7 @@ fn straightened(guess: &Distortion, taken: &RgbImage) -> epipole::Result<RgbImag
     PixelMap::from_fn(width, height, source, &mut ())?.warp(taken, &mut ())
 }
 
-/// Draws edges, and beside each the straight line through its ends.
+/// Draws edges, each with the straight line through its ends.
 fn draw_edges(canvas: &mut Canvas, panel: &Panel, edges: &[Edge]) {
     for Edge(points) in edges {
         let places: Vec<Place> = points.iter().map(|point| panel.place_of(point)).collect();

@@ -1,4 +1,4 @@
-//! Corners of frames, followed from one to the next and renewed where they were lost.
+//! Corners tracked from frame to frame, and replaced when lost.
 
 use crate::contract::Progress;
 use crate::kit::question::tell;
@@ -11,31 +11,30 @@ use epipole::sfm::PairMatches;
 use nalgebra::Point2;
 use std::collections::HashMap;
 
-/// Smallest distance between corners, pixels.
+/// Minimum distance between corners, pixels.
 const APART_PX: f64 = 7.0;
 /// Half of a window's side without its center, pixels.
 const HALF_WINDOW: usize = 5;
-/// Largest distance from the start after following back, pixels.
+/// Maximum distance from the start after tracking back, pixels.
 const MAX_BACK_PX: f64 = 0.3;
-/// Number of earlier frames that each frame is matched with.
+/// Number of earlier frames matched with each frame.
 const NUM_NEIGHBORS: usize = 4;
 
-/// The corners of all frames.
+/// Corners of all frames.
 pub(super) struct Corners {
     /// Positions in each frame, pixels.
     pub(super) places: Vec<Vec<Point2<f64>>>,
-    /// Number of the track of each.
+    /// Track number of each corner.
     tracks: Vec<Vec<usize>>,
     num_tracks: usize,
 }
 
 impl Corners {
-    /// Follows corners through the frames.
+    /// Tracks corners through the frames.
     ///
     /// * `most`: maximum number of corners per frame
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(super) fn follow(
         frames: &[GrayImage32],
         most: usize,
@@ -74,7 +73,7 @@ impl Corners {
         Ok(corners)
     }
 
-    /// Returns the matches of each frame with those just before it.
+    /// Returns the matches of each frame with the frames just before it.
     pub(super) fn pairs(&self) -> Vec<PairMatches> {
         let mut pairs = Vec::new();
         for image2 in 1..self.tracks.len() {

@@ -1,4 +1,4 @@
-//! `odometry`: the path of a camera from the corners that were followed through its frames.
+//! `odometry`: the path of a camera from corners tracked through its frames.
 
 mod corners;
 mod model;

@@ -1,4 +1,4 @@
-//! Frames of a moving camera, how its path is found, and the frame that is shown.
+//! Frames of a moving camera, settings for finding its path, and the current frame.
 
 use super::question::{Answer, Frame, MAX_STRIDE, Question};
 use crate::contract::{
@@ -35,7 +35,7 @@ pub(crate) struct OdometryFigure {
 }
 
 impl OdometryFigure {
-    /// Returns the answer to the current question; `None` while it is computed.
+    /// Returns the result for the current settings; `None` while it is computed.
     pub(super) fn answer(&self) -> Option<&Answer> {
         let is_waiting = self.asked.is_waiting();
         self.asked.answer().filter(|_| !is_waiting)
@@ -61,12 +61,12 @@ impl OdometryFigure {
         self.timeline.place(self.last())
     }
 
-    /// Returns the index of the frame that is shown, among those used.
+    /// Returns the index of the current frame, among those used.
     pub(super) fn frame(&self) -> usize {
         self.timeline.frame(self.last())
     }
 
-    /// Returns the distance of a frame's camera from its true place, meters.
+    /// Returns the distance of a frame's camera from its true position, meters.
     pub(super) fn error_m(&self, index: usize, frame: &Frame) -> Option<f64> {
         let number = self.question().used().nth(index)?;
         let truth = sequence::camera(number).center_in_world();
@@ -178,7 +178,7 @@ mod tests {
             answer.error_m
         );
         assert!(answer.points.len() > 100 && answer.frames[0].is_keyframe);
-        // The start of the path is one unit long, and 0.1 m in the world.
+        // The first step of the path has length 1 as found, and 0.1 m in the world.
         assert!((0.05..0.2).contains(&answer.scale), "{}", answer.scale);
     }
 

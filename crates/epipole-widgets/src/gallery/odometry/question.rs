@@ -1,4 +1,4 @@
-//! The job of `odometry`: renders the frames, follows corners, and finds the path of the camera.
+//! The job of `odometry`: renders the frames, tracks corners, and estimates the path of the camera.
 
 use super::corners::Corners;
 use crate::contract::{Problem, Progress};
@@ -16,21 +16,21 @@ use image::RgbImage;
 use nalgebra::{Point3, Similarity3};
 use serde::{Deserialize, Serialize};
 
-/// Largest stride over frames.
+/// Maximum stride over frames.
 pub(super) const MAX_STRIDE: usize = 3;
-/// Maximum number of points in the answer.
+/// Maximum number of points in the result.
 const MAX_POINTS: usize = 600;
 
-/// Frames used, and how the path is refined.
+/// Frames used, and settings of the refinement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
-    /// Every how many frames one is used.
+    /// Stride over the frames.
     pub(super) stride: usize,
     /// Maximum number of corners per frame.
     pub(super) num_corners: usize,
     /// Standard deviation of the noise, gray levels.
     pub(super) noise: f64,
-    /// Number of keyframes that are refined together.
+    /// Number of keyframes refined together.
     pub(super) window: usize,
     /// Whether everything is refined at the end.
     pub(super) is_refined: bool,
@@ -42,20 +42,20 @@ pub(super) struct Frame {
     pub(super) picture: Picture,
     /// Columns and rows of the corners.
     pub(super) corners: Vec<(f64, f64)>,
-    /// `world_from_cam` in the true world, as found; `None` if it was lost.
+    /// Estimated `world_from_cam` in the ground-truth frame; `None` if the camera was lost.
     pub(super) world_from_cam: Option<RigidTransform>,
     pub(super) is_keyframe: bool,
 }
 
-/// The path, moved and scaled onto the true one.
+/// The path, aligned to the true one.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) frames: Vec<Frame>,
-    /// Points with their colors, in the true world, and the frame that saw each first.
+    /// Points with their colors, in the ground-truth frame, and the first frame that saw each.
     pub(super) points: Vec<(Point3<f64>, [u8; 3], u32)>,
     /// Root mean square distance of the camera from its true path, meters.
     pub(super) error_m: f64,
-    /// Meters per unit of the path as found.
+    /// Meters per unit of the estimated path.
     pub(super) scale: f64,
 }
 
@@ -139,7 +139,7 @@ impl question::Question for Question {
 }
 
 impl Answer {
-    /// Returns the number of frames that have a place on the path.
+    /// Returns the number of frames with a pose.
     pub(super) fn num_placed(&self) -> usize {
         let frames = self.frames.iter();
         frames
@@ -149,7 +149,7 @@ impl Answer {
 }
 
 impl Frame {
-    /// Returns where the camera was found to be, in the true world.
+    /// Returns the estimated camera center, in the ground-truth frame.
     pub(super) fn center(&self) -> Option<Point3<f64>> {
         Some(Point3::from(self.world_from_cam?.translation.vector))
     }
@@ -165,7 +165,7 @@ fn noisy(frame: &RgbImage, index: usize, noise: f64) -> GrayImage32 {
     gray
 }
 
-/// Returns the error of the path and the similarity that moves it onto the true one.
+/// Returns the error of the path and the similarity that aligns it to the true one.
 fn alignment(
     result: &OdometryResult,
     truth: &[PosedCamera],

@@ -1,4 +1,4 @@
-//! A frame with its corners, the path and the points in space, and the error along the path.
+//! A frame with its corners, path and points in 3D, and the error along the path.
 
 use super::model::OdometryFigure;
 use super::question::{Answer, Frame};
@@ -15,7 +15,7 @@ use nalgebra::Point3;
 
 /// Height over width of a frame.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Highest error that the plot shows at least, millimeters.
+/// Minimum height of the plot's axis, millimeters.
 const LEAST_MM: f64 = 4.0;
 /// Length of the cameras drawn, meters.
 const CAMERA_M: f64 = 0.09;
@@ -26,7 +26,7 @@ const FOUND: Stroke = Stroke::solid(Role::Best, 2.25);
 #[derive(Default)]
 pub(crate) struct OdometryView;
 
-/// Returns the errors of the frames that were placed, millimeters.
+/// Returns the errors of the frames with a pose, millimeters.
 fn errors_mm(model: &OdometryFigure) -> Vec<(f64, f64)> {
     let frames = model.answer().map_or(&[][..], |answer| &answer.frames);
     let errors = frames.iter().enumerate();
@@ -128,7 +128,7 @@ fn draw_corners(frame: &Frame, panel: &Panel, canvas: &mut Canvas) {
     }
 }
 
-/// Draws the paths up to the frame that is shown, its camera, and the points seen so far.
+/// Draws the paths up to the current frame, its camera, and the points seen so far.
 fn draw_space(model: &OdometryFigure, answer: &Answer, panel: &Panel, canvas: &mut Canvas) {
     let first = sequence::camera(0);
     let ahead = first.cam_from_world.inverse() * Point3::new(0.05, 0.0, 0.62);

@@ -1,4 +1,4 @@
-//! `optimal-plane`: the plane through the baseline that passes both pixels of a match most closely.
+//! `optimal-plane`: the plane through the baseline that passes closest to both pixels of a match.
 
 mod model;
 mod pencil;

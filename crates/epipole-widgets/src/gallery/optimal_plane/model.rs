@@ -1,4 +1,5 @@
-//! A match whose rays miss, two cameras, and the angle of a plane through their baseline.
+//! A match whose rays do not intersect, two cameras, and the angle of a plane through their
+//! baseline.
 
 use super::pencil::Pencil;
 use crate::contract::{
@@ -23,14 +24,14 @@ const APART: Slider = Slider::new("apart", "Off the line")
     .at(40.0)
     .unit("px");
 const KNOBS: &[Knob] = knobs![FORWARD, APART];
-/// The mug's handle.
+/// Initially on the mug's handle.
 const PIXEL: Probe = Probe::new("p", "first", "p in photograph 1")
     .over(PHOTO_SIZE)
     .step(4.0)
     .digits(1)
     .told(|place| place_words(place, 1))
     .at(479.0, 327.0);
-/// Largest angle of the plane to either side of that through p, degrees.
+/// Maximum angle of the plane to either side of the plane through p, degrees.
 pub(super) const REACH_DEG: f64 = 8.0;
 /// Handle of the plane, on the track below the plot.
 pub(super) const PLANE: Probe = Probe::new("plane", "track", "Plane")
@@ -38,7 +39,7 @@ pub(super) const PLANE: Probe = Probe::new("plane", "track", "Plane")
     .step(0.2)
     .digits(2)
     .told(|(degrees, _)| format!("turned by {}°", format_number(degrees, 1)));
-/// Sideways step of camera 2, meters, and its rotation to the left, degrees.
+/// Sideways translation of camera 2, meters, and its rotation to the left, degrees.
 const RIGHT_M: f64 = 0.36;
 const LEFT_DEG: f64 = 12.0;
 
@@ -67,7 +68,7 @@ impl Miss {
     }
 }
 
-/// The match, the planes, and the best one.
+/// The match, its planes, and the best one.
 pub(super) struct State {
     pub(super) pixels: [Point2<f64>; 2],
     pencil: Pencil,
@@ -94,7 +95,7 @@ impl OptimalPlane {
         self.plane.place().0
     }
 
-    /// Returns the match and its planes; `None` where p shows no surface that both cameras see.
+    /// Returns the match and its planes; `None` if p shows no surface visible to both cameras.
     pub(super) fn state(&self) -> Option<State> {
         let cameras = self.cameras();
         let (x, y) = self.pixel.place();

@@ -1,14 +1,15 @@
-//! The planes through a baseline, by their angle, and the lines in which they cut two photographs.
+//! Planes through a baseline, by their angle, and their intersections with two photographs.
 
 use epipole::camera::{PosedCamera, relative_motion};
 use epipole::math::Line2;
 use nalgebra::{Matrix3, Point2, Unit, UnitQuaternion, Vector3};
 
-/// Planes through the centers of two cameras; that of angle 0 contains a given ray of camera 1.
+/// Planes through the centers of two cameras; the plane at angle 0 contains a given ray of camera
+/// 1.
 pub(super) struct Pencil {
     /// Direction of the baseline, in camera 1.
     baseline: Unit<Vector3<f64>>,
-    /// Normal of the plane of angle 0, in camera 1.
+    /// Normal of the plane at angle 0, in camera 1.
     normal: Vector3<f64>,
     rotation: UnitQuaternion<f64>,
     /// `K⁻¹` of both cameras.
@@ -16,8 +17,8 @@ pub(super) struct Pencil {
 }
 
 impl Pencil {
-    /// Returns the planes through the baseline; that of angle 0 contains the ray of `pixel1`.
-    /// `None` if the cameras are in the same place, or the ray runs along the baseline.
+    /// Returns the planes through the baseline, with the ray of `pixel1` in the plane at angle 0.
+    /// `None` if the cameras are at the same position, or the ray runs along the baseline.
     pub(super) fn new([first, second]: &[PosedCamera; 2], pixel1: &Point2<f64>) -> Option<Self> {
         let motion = relative_motion(&first.cam_from_world, &second.cam_from_world);
         let center2 = motion.inverse().translation.vector;
@@ -32,8 +33,8 @@ impl Pencil {
         })
     }
 
-    /// Returns the lines in which the plane of this angle cuts both photographs; `None` if one is
-    /// infinitely far away.
+    /// Returns the lines in which the plane at this angle intersects both photographs; `None` if
+    /// one is infinitely far away.
     pub(super) fn lines(&self, angle_rad: f64) -> Option<[Line2; 2]> {
         let turn = UnitQuaternion::from_axis_angle(&self.baseline, angle_rad);
         let normal1 = turn * self.normal;

@@ -1,5 +1,5 @@
-//! Both photographs with the lines of the plane and what p and p′ miss them by, and beside them the
-//! sum of squares over the plane's angle.
+//! Both photographs with the lines of the plane and the distances of p and p′ from them, and beside
+//! them the sum of squares over the plane's angle.
 
 use super::model::{Miss, OptimalPlane, REACH_DEG, State};
 use super::words::NOTHING;
@@ -15,19 +15,19 @@ use crate::theme::Role;
 use epipole::math::Line2;
 
 const MARKER: f64 = 5.0;
-/// Height of the plot with its track where it is below the photographs, on a phone and on a page,
-/// CSS pixels.
+/// Height of the plot with its track if below the photographs, on a phone and on a page, CSS
+/// pixels.
 const PLOT: [f64; 2] = [128.0, 156.0];
-/// Planes drawn faintly to either side, and the angle between them, degrees.
+/// Number of planes drawn faintly to either side, and the angle between them, degrees.
 const NUM_FAINT: i32 = 4;
 const FAINT_DEG: f64 = 4.0;
-/// Steps of the curves.
+/// Number of steps of the curves.
 const NUM_STEPS: i32 = 160;
-/// Top of the plot over the least sum of squares.
+/// Top of the plot, relative to the minimum sum of squares.
 const TOP: f64 = 5.0;
 const SUM: Stroke = Stroke::solid(Role::Ink, 2.25);
 const BEST: Stroke = Stroke::solid(Role::Inlier, 1.75).dashed();
-/// Between the panels and the legend, CSS pixels.
+/// Gap between the panels and the legend, CSS pixels.
 const LEGEND_GAP: f64 = 4.0;
 const LEGEND: [Entry; 4] = [
     (Swatch::Line(squares(0)), "photograph 1"),
@@ -36,7 +36,7 @@ const LEGEND: [Entry; 4] = [
     (Swatch::Marker(Shape::Diamond, Role::Inlier), "least"),
 ];
 
-/// Returns the style of the squared miss in a photograph.
+/// Returns the style of the squared distance in a photograph.
 const fn squares(index: usize) -> Stroke {
     Stroke::solid(CAMERAS[index].0, 1.75).dashed()
 }
@@ -122,8 +122,8 @@ impl View for OptimalPlaneView {
     }
 }
 
-/// Draws the lines of some planes faintly, those of the best one dashed and of the present one
-/// solid, and what the pixel misses it by.
+/// Draws lines of some planes faintly, those of the best one dashed and of the current one solid,
+/// and the distance of the pixel from the latter.
 fn draw_photograph(
     model: &OptimalPlane,
     state: &State,
@@ -152,7 +152,7 @@ fn draw_photograph(
     labels.name(canvas, (place, 10.0), ["p", "p′"][index], (Role::Ink, TEXT));
 }
 
-/// Draws the squared miss of each photograph, their sum, and its least value.
+/// Draws the squared distance in each photograph, their sum, and its minimum.
 fn draw_curves(state: &State, panel: &Panel, canvas: &mut Canvas) {
     let curve = |value: &dyn Fn(Miss) -> f64| -> Vec<(f64, f64)> {
         let angles = (0..=NUM_STEPS)

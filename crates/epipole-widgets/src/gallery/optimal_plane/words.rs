@@ -3,7 +3,7 @@
 use super::model::{OptimalPlane, State};
 use crate::contract::{Readout, Words, format_number};
 
-/// Sentence where p has no match.
+/// Message if p has no match.
 pub(super) const NOTHING: &str = "Camera 2 does not see what is at p. Move p.";
 
 impl Words for OptimalPlane {

@@ -14,7 +14,7 @@ pub(super) struct Fit {
     pub(super) singular_values: [f64; 9],
     /// Mean distance of the true matches from their lines in photograph 2, pixels.
     pub(super) mean_px: f64,
-    /// Largest of these distances, pixels.
+    /// Maximum of these distances, pixels.
     pub(super) worst_px: f64,
     /// Distance of the wrong match from its line, pixels.
     pub(super) wrong_px: f64,
@@ -23,7 +23,7 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// Estimates F from the true matches, and from the wrong one if `is_heard`.
+    /// Estimates F from the true matches and, if `is_heard`, the wrong one.
     ///
     /// # Errors
     /// As [`fundamental_8point_explained`].
@@ -46,7 +46,7 @@ impl Fit {
     }
 }
 
-/// Largest displacement of the wrong match on the curve, pixels.
+/// Maximum displacement of the wrong match on the curve, pixels.
 pub(super) const REACH_PX: f64 = 300.0;
 /// Number of steps of the curve.
 const NUM_STEPS: usize = 30;

@@ -1,4 +1,4 @@
-//! `outlier-drag`: one match is dragged away, and F follows it with all epipolar lines.
+//! `outlier-drag`: the reader drags one match away, and F with all epipolar lines follows it.
 
 mod fit;
 mod model;

@@ -1,4 +1,4 @@
-//! Matches of the still life, with the first one dragged to a wrong place.
+//! Matches of the still life, the first of which is dragged to a wrong position.
 
 use super::fit::{Fit, led_away};
 use crate::contract::{
@@ -13,7 +13,7 @@ use epipole::epipolar::fundamental_from_cameras;
 use nalgebra::{Point2, Vector2};
 use std::cell::OnceCell;
 
-/// Number of true matches, to which the wrong one is added.
+/// Number of true matches, besides the wrong one.
 const COUNT: Slider = Slider::new("count", "True matches")
     .range(8.0, 59.0, 1.0)
     .at(19.0);
@@ -43,7 +43,7 @@ pub(super) struct State {
     pub(super) wrong: Match,
     /// F with the wrong match, unless the toggle excludes it.
     pub(super) fit: Fit,
-    /// F from the true matches alone.
+    /// F from the true matches only.
     pub(super) without: Fit,
     led: OnceCell<Vec<(f64, Fit)>>,
 }
@@ -65,7 +65,7 @@ pub(crate) struct OutlierDrag {
 }
 
 impl OutlierDrag {
-    /// Returns the matches and F, or a sentence on why there is none.
+    /// Returns the matches and F, or a message why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
         self.state.as_ref().map_err(String::as_str)
     }
@@ -104,7 +104,7 @@ impl OutlierDrag {
     }
 }
 
-/// Returns the handle of the wrong match at a place, clamped to the photograph.
+/// Returns the handle of the wrong match at a position, clamped to the photograph.
 fn near(place: &Point2<f64>) -> Probe {
     let mut wrong = WRONG;
     wrong.put(place.x, place.y);
@@ -131,7 +131,7 @@ impl Declared for OutlierDrag {
 }
 
 impl Model for OutlierDrag {
-    /// All matches, the wrong one last.
+    /// Returns all matches, the wrong one last.
     fn data(&self) -> Data {
         let Ok(state) = self.state() else {
             return Data::new();
@@ -175,7 +175,7 @@ impl Model for OutlierDrag {
     }
 }
 
-/// Returns a place on the true line of the dragged match, `away_px` from its true position.
+/// Returns a point on the true line of the dragged match, `away_px` from its true position.
 fn along_its_line(away_px: f64) -> Option<Point2<f64>> {
     let model = OutlierDrag::new();
     let (pixel1, pixel2) = model.state.ok()?.right;

@@ -17,7 +17,7 @@ const MARKER: f64 = 4.5;
 /// Maximum number of true matches with a line; more would hide the photograph.
 const NUM_LINES: usize = 8;
 const DECADES: [f64; 2] = [-1.2, 2.2];
-/// Index of the displacement beside which the curves are labeled.
+/// Index of the displacement at which the curves are labeled.
 const NAMED: usize = 22;
 const MEAN: Role = Role::Series(0);
 const WORST: Role = Role::Series(3);
@@ -121,7 +121,7 @@ fn draw_second(model: &OutlierDrag, state: &State, panel: &Panel, canvas: &mut C
         if index < NUM_LINES {
             draw_line(canvas, panel, &line, Stroke::solid(MEAN, 1.25).cased());
         }
-        // The residual: from the match perpendicular to its line.
+        // The residual, perpendicular from the match to its line.
         let [from, to] = [*pixel2, line.nearest(pixel2)].map(|pixel| panel.place_of(&pixel));
         canvas.line(from, to, Stroke::solid(WORST, 2.5).cased());
     }

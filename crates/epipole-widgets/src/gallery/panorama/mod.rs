@@ -1,4 +1,4 @@
-//! `panorama`: photographs of a camera that turned, joined by homographies.
+//! `panorama`: photographs of a rotating camera, joined by homographies.
 
 mod model;
 mod question;

@@ -64,7 +64,7 @@ const fn own_slot(id: &'static str, label: &'static str) -> PhotoSlot {
     }
 }
 
-/// Misfit above which the camera has not only turned, pixels.
+/// RMS error above which the camera has not only rotated, pixels.
 pub(super) const MOVED_PX: f64 = 1.0;
 
 /// The model of `panorama`.
@@ -87,13 +87,14 @@ impl PanoramaFigure {
         BLENDS[self.settings.chosen(&BLEND)]
     }
 
-    /// Returns the answer to the current question; `None` while it is computed or if there is none.
+    /// Returns the result for the current settings; `None` while it is computed or if there is
+    /// none.
     pub(super) fn answer(&self) -> Option<&Answer> {
         let is_waiting = self.asked.is_waiting();
         self.shown().filter(|_| !is_waiting)
     }
 
-    /// Returns the last answer, possibly of an earlier question, unless the last one failed.
+    /// Returns the last result, possibly for earlier settings, unless the last job failed.
     pub(super) fn shown(&self) -> Option<&Answer> {
         let has_failed = self.asked.problem().is_some();
         self.asked.answer().filter(|_| !has_failed)

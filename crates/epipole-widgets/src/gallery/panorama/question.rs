@@ -1,4 +1,5 @@
-//! The job of `panorama`: features, overlaps, rotations with the focal length, and the picture.
+//! The job of `panorama`: features, overlaps, rotations with the focal length, and the stitched
+//! picture.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::features_of;
@@ -26,20 +27,21 @@ pub(super) const BLENDS: [Blend; 3] = [Blend::Seams, Blend::Feather, Blend::Band
 const GUESSED_FOCAL: f64 = 1.0;
 /// Maximum number of pixels of the panorama.
 const MAX_PIXELS: u64 = 1_500_000;
-/// Factors of the levels of three photographs with automatic exposure.
+/// Exposure factors of three photographs with automatic exposure.
 const EXPOSURES: [f64; MAX_PHOTOS] = [0.72, 1.0, 1.3];
 
 /// The photographs to join.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) enum Source {
-    /// Rendered from a camera that turns by an angle and steps aside before each photograph.
+    /// Rendered, from a camera that rotates by an angle and translates sideways before each
+    /// photograph.
     Rendered {
         turn_deg: f64,
         step_m: f64,
         /// Whether exposures differ.
         is_automatic: bool,
     },
-    /// The reader's own.
+    /// Photographs of the reader.
     Own(Vec<Picture>),
 }
 
@@ -61,17 +63,18 @@ pub(super) struct Joint {
     pub(super) num_inliers: usize,
 }
 
-/// The panorama, and how well its photographs fit.
+/// The panorama, and the accuracy of its alignment.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photographs: Vec<Picture>,
     pub(super) panorama: Picture,
-    /// Focal length found, pixels.
+    /// Estimated focal length, pixels.
     pub(super) focal_px: f64,
-    /// Rotation of each photograph to the right of the first, degrees; `None` without a place.
+    /// Rotation of each photograph to the right of the first, degrees; `None` if it is not
+    /// connected.
     pub(super) turns_deg: Vec<Option<f64>>,
     pub(super) joints: Vec<Joint>,
-    /// Root mean square distance of a match from where the rotations put it, pixels.
+    /// Root mean square distance of a match from its position predicted by the rotations, pixels.
     pub(super) misfit_px: f64,
 }
 
@@ -199,7 +202,7 @@ fn overlaps(features: &[Features]) -> Result<Vec<Overlap>, Error> {
     Ok(found)
 }
 
-/// Returns the rotation of each photograph relative to the first placed one, to the right.
+/// Returns the rotation of each photograph relative to the first connected one, to the right.
 fn turns_deg(panorama: &Panorama) -> Vec<Option<f64>> {
     let ahead = |rotation: &Matrix3<f64>| {
         let axis = rotation.row(2);
@@ -217,8 +220,8 @@ fn turns_deg(panorama: &Panorama) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// Returns the root mean square distance of the matches that agree from where the rotations put
-/// them.
+/// Returns the root mean square distance of inliers from their positions predicted by the
+/// rotations.
 fn misfit_px(panorama: &Panorama, overlaps: &[Overlap]) -> f64 {
     let mut errors_sq = Vec::new();
     for overlap in overlaps {

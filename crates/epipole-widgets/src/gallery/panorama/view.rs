@@ -71,8 +71,8 @@ impl View for PanoramaView {
     }
 }
 
-/// Creates the panel of a picture, as large as fits in the middle of a cell; the whole cell without
-/// a picture.
+/// Creates the panel of a picture, as large as fits, centered in a cell; the whole cell without a
+/// picture.
 fn fitted(id: &'static str, cell: Rect, size: Option<(u32, u32)>) -> Panel {
     let Some((columns, rows)) = size else {
         return Panel::photograph(id, cell, (1, 1));

@@ -6,7 +6,7 @@ use crate::contract::{Readout, Words, format_number};
 use epipole::stitch::{Blend, Surface};
 
 impl Answer {
-    /// Returns the fraction of all matches that agree with their homography.
+    /// Returns the inlier ratio of all homographies.
     fn inlier_ratio(&self) -> f64 {
         let sum = |count: fn(&Joint) -> usize| self.joints.iter().map(count).sum::<usize>();
         let (inliers, matches) = (

@@ -62,7 +62,7 @@ impl PatchMatch {
         self.asked.answer().map_or(&[], |answer| &answer.rounds)
     }
 
-    /// Returns the number of rounds that the reader has right.
+    /// Returns the number of rounds that the reader answered correctly.
     pub(super) fn score(&self) -> usize {
         let rounds = self.rounds().iter().enumerate();
         rounds
@@ -70,7 +70,7 @@ impl PatchMatch {
             .count()
     }
 
-    /// Returns the number of rounds that the nearest descriptor has right.
+    /// Returns the number of rounds in which the nearest descriptor is correct.
     pub(super) fn machine_score(&self) -> usize {
         let is_right = |round: &&Round| round.machine() == usize::from(round.right);
         self.rounds().iter().filter(is_right).count()
@@ -143,7 +143,7 @@ const CHALLENGES: &[Challenge<PatchMatch>] = &[
     },
 ];
 
-/// The right letters, checked by a test.
+/// Correct letters, checked by a test.
 const RIGHT: [&str; NUM_ROUNDS] = ["c", "c", "b", "c", "a"];
 
 #[cfg(test)]

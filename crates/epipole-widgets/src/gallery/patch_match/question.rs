@@ -1,4 +1,4 @@
-//! The job of `patch-match`: five features with four candidates each, one of them right.
+//! The job of `patch-match`: five features with four candidates each, one of them correct.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{Pair, SIZE};
@@ -28,7 +28,7 @@ const UNIT: f32 = 512.0;
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
-/// A feature and its candidates, the right one at a random place.
+/// A feature and its candidates, the correct one at a random position.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Round {
     /// Feature in photograph 1.
@@ -37,12 +37,12 @@ pub(super) struct Round {
     pub(super) options: [Spot; NUM_OPTIONS],
     /// Distances between the unit-length descriptors of the feature and of each candidate.
     pub(super) distances: [f32; NUM_OPTIONS],
-    /// Index of the right option.
+    /// Index of the correct option.
     pub(super) right: u8,
 }
 
 impl Round {
-    /// The option with the nearest descriptor.
+    /// Returns the option with the nearest descriptor.
     pub(super) fn machine(&self) -> usize {
         let order = |a: &usize, b: &usize| self.distances[*a].total_cmp(&self.distances[*b]);
         (0..NUM_OPTIONS).min_by(order).unwrap_or(0)
@@ -90,8 +90,8 @@ impl question::Question for Question {
     }
 }
 
-/// Returns the feature nearest to `place` with its right match and the three nearest wrong ones;
-/// `None` without a right match.
+/// Returns the feature nearest to `place` with its correct match and the three nearest wrong ones;
+/// `None` without a correct match.
 fn round(pair: &Pair, place: (f64, f64), random: &mut Random) -> Result<Option<Round>, Error> {
     let [first, second] = pair.features;
     let far = |index: &usize| {
@@ -109,7 +109,7 @@ fn round(pair: &Pair, place: (f64, f64), random: &mut Random) -> Result<Option<R
     let Some(&right) = right.first() else {
         return Ok(None);
     };
-    // One option per place: a feature with two orientations would show the same patch twice.
+    // One option per position: a feature with two orientations would show the same patch twice.
     let mut options = vec![right];
     for other in wrong {
         let at = |index: usize| second.keypoints[index].point();

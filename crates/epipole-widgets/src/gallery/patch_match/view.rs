@@ -91,7 +91,8 @@ fn draw_name(canvas: &mut Canvas, rect: Rect, name: &str) {
     canvas.label((rect.x + 5.0, rect.y + 10.0), name, style);
 }
 
-/// Marks the right option once its round is decided, and the descriptor distances once all are.
+/// Marks the correct option once its round is decided, and shows the descriptor distances once all
+/// are.
 fn draw_verdict(
     model: &PatchMatch,
     index: usize,

@@ -6,15 +6,15 @@ use image::GrayImage;
 
 /// Number of disparities searched, from 0 up.
 pub(super) const NUM_DISPARITIES: u32 = 48;
-/// Disparities of one surface differ by less, pixels.
+/// Error below which a disparity is correct, pixels, as it then belongs to the same surface.
 pub(super) const RIGHT_PX: f64 = 1.5;
 
 /// Smoothness penalties of the matching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Penalties {
-    /// P1, of a change of disparity by one pixel.
+    /// P1, for a change of disparity by one pixel.
     pub(super) small: u8,
-    /// P2, of any larger change; at least P1.
+    /// P2, for any larger change; at least P1.
     pub(super) large: u8,
 }
 
@@ -23,7 +23,7 @@ pub(super) const DIRECTIONS: [&[usize]; 5] = [
     &[0],
     &[0, 1],
     &[0, 1, 2, 3],
-    // All that a single pass down the image can follow, and back along the row.
+    // The directions available to a single pass down the image, and back along the row.
     &[0, 1, 2, 4, 6],
     &[0, 1, 2, 3, 4, 5, 6, 7],
 ];
@@ -69,7 +69,7 @@ impl Costs {
         self.pixel.matching.iter().map(|&c| c.into()).collect()
     }
 
-    /// Returns the mean of the path costs, which has its minimum where their sum has.
+    /// Returns the mean of the path costs, which has the same minimum as their sum.
     pub(super) fn means(&self) -> Vec<f64> {
         let count = self.directions.len() as f64;
         self.sums.iter().map(|&s| f64::from(s) / count).collect()

@@ -1,4 +1,4 @@
-//! A pixel of the left photograph, the penalties, and the paths that lead to it.
+//! A pixel of the left photograph, the penalties, and the paths to it.
 
 use super::costs::{Costs, DIRECTIONS, Penalties, RIGHT_PX, path_winner_px};
 use crate::contract::{
@@ -49,23 +49,23 @@ pub(crate) struct PathCostsModel {
     settings: Settings,
     pub(super) place: Probe,
     pub(super) asked: Computation<PairQuestion>,
-    /// Both photographs in gray, once they are there.
+    /// Both photographs in gray, once available.
     grays: Option<[GrayImage; 2]>,
     costs: Option<Costs>,
 }
 
 impl PathCostsModel {
-    /// Returns the costs, once the photographs are there.
+    /// Returns the costs, once the photographs are available.
     pub(super) fn costs(&self) -> Option<&Costs> {
         self.costs.as_ref()
     }
 
-    /// Returns the left photograph in gray, as the matching sees it.
+    /// Returns the left photograph in gray, the input of the matching.
     pub(super) fn gray(&self) -> Option<&GrayImage> {
         self.grays.as_ref().map(|[left, _]| left)
     }
 
-    /// Returns the penalties; P2 is raised to P1.
+    /// Returns the penalties, with P2 raised to P1 if it is smaller.
     pub(super) fn penalties(&self) -> Penalties {
         let [small, large] = [&SMALL, &LARGE].map(|slider| self.settings.number(slider) as u8);
         Penalties {
@@ -92,12 +92,12 @@ impl PathCostsModel {
         paths.find_map(|(index, path)| (index == marked).then_some(path))
     }
 
-    /// Returns the direction of the marked path in words.
+    /// Returns the name of the marked path's direction.
     pub(super) fn marked_label(&self) -> Option<&'static str> {
         self.marked().map(|_| self.settings.label(&SHOWN))
     }
 
-    /// Returns the true disparity of the pixel, pixels.
+    /// Returns the true disparity at the pixel, pixels.
     pub(super) fn truth_px(&self) -> Option<f64> {
         let (u, v) = self.place.pixel();
         self.asked.answer()?.truth.get(u, v).map(f64::from)
@@ -114,8 +114,8 @@ impl PathCostsModel {
         Some((disparity_px as f64 - self.truth_px()?).abs())
     }
 
-    /// Returns errors of the lowest matching cost and of the lowest sum, pixels; `None` where the
-    /// pixel is hidden on the right.
+    /// Returns errors of the lowest matching cost and of the lowest sum, pixels; `None` if the
+    /// pixel is hidden from the right camera.
     fn errors_px(&self) -> Option<[f64; 2]> {
         let costs = self.costs().filter(|_| self.is_hidden() == Some(false))?;
         Some([
@@ -124,7 +124,7 @@ impl PathCostsModel {
         ])
     }
 
-    /// Returns the number of paths whose own lowest cost is at the truth.
+    /// Returns the number of paths whose own minimum is at the truth.
     pub(super) fn num_right(&self) -> Option<usize> {
         let paths = self.costs()?.paths();
         let is_right = |path: &PathCosts| {
@@ -286,7 +286,7 @@ mod tests {
 
     #[test]
     fn a_path_brings_the_disparity_of_what_it_crossed() {
-        // The wall to the right of the vase.
+        // On the wall to the right of the vase.
         let mut model = at(196.0, 108.0);
         assert_eq!(model.marked_path().map(path_winner_px), Some(21));
         assert_eq!(model.num_right(), Some(4));

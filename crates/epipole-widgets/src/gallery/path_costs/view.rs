@@ -17,23 +17,23 @@ use image::{GrayImage, RgbImage};
 
 /// Height over width of the photograph.
 const ASPECT: f64 = grid::aspect(SIZE);
-/// Heights on a phone: of the path costs, and of the color bar below the legend, CSS pixels.
+/// Heights on a phone, CSS pixels: of the path costs, and of the color bar below the legend.
 const LOW: f64 = 128.0;
 const BAR: f64 = 38.0;
-/// Left end of the legend where there is no room for it below the plots, CSS pixels.
+/// Left end of the legend if it is beside the plots, CSS pixels.
 const LEGEND_LEFT: f64 = 292.0;
 /// Heights of the two plots relative to each other.
 const HEIGHTS: [f64; 2] = [0.4, 0.6];
-/// Room above and below the curves, relative to the highest cost.
+/// Height of the axis, relative to the highest cost.
 const HEADROOM: f64 = 1.08;
 const FOOTROOM: f64 = 0.18;
-/// Fraction of the page's color in the photograph, so that the paths stand out.
+/// Weight of the page's color in the photograph, to make the paths stand out.
 const FADED: f32 = 0.4;
 /// End of the color scale of the paths, pixels: nearly the largest true disparity.
 const SCALE_PX: f64 = 40.0;
 /// Distances of an arrow's ends from the pixel, CSS pixels: in a small photograph, and others.
 const ARROWS: [[f64; 2]; 2] = [[29.0, 12.0], [44.0, 15.0]];
-/// Width below which a panel is small: it has no room for names, CSS pixels.
+/// Width below which a panel is too small for names, CSS pixels.
 const SMALL_PANEL: f64 = 200.0;
 
 const PATH: Stroke = Stroke::solid(Role::Reference, 1.0);
@@ -145,7 +145,7 @@ fn faded(gray: &GrayImage, theme: Theme) -> RgbImage {
     })
 }
 
-/// Draws each path in the colors of the disparities it prefers on its way, with an arrow.
+/// Draws each path in the colors of its lowest-cost disparities, with an arrow.
 fn draw_paths(model: &PathCostsModel, costs: &Costs, panel: &Panel, canvas: &mut Canvas) {
     let theme = canvas.theme();
     let side = (2.2 * panel.scale_x()).clamp(2.0, 4.0);
@@ -238,7 +238,7 @@ fn draw_costs(model: &PathCostsModel, costs: &Costs, panel: &Panel, canvas: &mut
     draw_minimum(panel, &curves, mark, canvas);
 }
 
-/// Draws the mark of a minimum and its name where it covers no curve.
+/// Draws the mark of a minimum, and its name at a position that covers no curve.
 fn draw_minimum(
     panel: &Panel,
     curves: &[Vec<f64>],
@@ -261,7 +261,7 @@ fn draw_minimum(
     labels.name(canvas, (place, 8.0), "minimum", (role, SMALL));
 }
 
-/// Draws the colors of the paths, and what the lines of the plots are.
+/// Draws the colors of the paths, and the legend of the plots' lines.
 fn draw_legend(canvas: &mut Canvas, layout: &Layout) {
     let top = layout.height - BAR;
     let words = "disparity of a path";
@@ -275,6 +275,6 @@ fn draw_legend(canvas: &mut Canvas, layout: &Layout) {
         true => layout.panel("raw").rect.x - plot::LEFT,
         false => LEGEND_LEFT,
     };
-    // A legend keeps the margin on both sides.
+    // The margin is the same on both sides.
     legend::draw(canvas, &LEGEND, layout.width + side, side, top + 2.0);
 }

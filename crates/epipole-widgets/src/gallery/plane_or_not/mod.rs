@@ -1,4 +1,4 @@
-//! `plane-or-not`: the homography of one plane predicts its points, and misses all others along
+//! `plane-or-not`: the homography of a plane predicts its points, and is wrong for all others along
 //! their epipolar lines.
 
 mod model;

@@ -45,14 +45,14 @@ const SHOW: Choice = Choice::new(
 const MANY: Toggle = Toggle::new("many", "Many points");
 const KNOBS: &[Knob] = knobs![PLANE, SHOW, BASELINE, FORWARD, TURN, MANY];
 
-/// On the rim of the vase.
+/// Initially on the rim of the vase.
 const POINT: Probe = Probe::new("p", "first", "Point p in image 1")
     .over(PHOTO_SIZE)
     .step(4.0)
     .digits(1)
     .told(|place| place_words(place, 1))
     .at(332.0, 130.0);
-/// Columns and rows of the many points.
+/// Columns and rows of the grid of points.
 const MANY_POINTS: (u32, u32) = (14, 10);
 
 /// Plane of the scene whose homography is drawn.
@@ -68,7 +68,7 @@ pub(super) enum Plane {
 pub(super) struct Parallax {
     pub(super) predicted: Point2<f64>,
     pub(super) pixel2: Point2<f64>,
-    /// Whether photograph 2 shows the point: neither hidden nor outside.
+    /// Whether the point is visible in photograph 2: neither hidden nor outside.
     pub(super) is_seen: bool,
     /// The point, world, meters.
     pub(super) point: Point3<f64>,
@@ -109,7 +109,7 @@ impl PlaneOrNot {
         )
     }
 
-    /// Returns `None` while both cameras are at the same place.
+    /// Returns the epipolar geometry; `None` while both cameras are at the same position.
     pub(super) fn geometry(&self) -> Option<Geometry> {
         Geometry::of(&self.cameras())
     }
@@ -142,8 +142,8 @@ impl PlaneOrNot {
         homography_from_motion(&motion, &normal, distance, &k1, &k2)
     }
 
-    /// Returns prediction and match of a pixel of image 1; `None` where camera 1 sees nothing or
-    /// camera 2 has it behind.
+    /// Returns prediction and match of a pixel of image 1; `None` if camera 1 sees no surface or
+    /// the point is behind camera 2.
     pub(super) fn parallax(&self, pixel1: &Point2<f64>) -> Option<Parallax> {
         let [first, second] = self.cameras();
         let (pixel2, point, is_visible) = match still_life().transfer(&first, &second, pixel1) {
@@ -167,8 +167,8 @@ impl PlaneOrNot {
         Some(normal.dot(&(point - on_plane)))
     }
 
-    /// Returns points all over image 1 that photograph 2 shows, with their parallax, if the reader
-    /// wants many.
+    /// Returns the points of the grid visible in photograph 2, with their parallax, if the reader
+    /// has turned them on.
     pub(super) fn many(&self) -> Vec<Parallax> {
         let (columns, rows) = match self.settings.flag(&MANY) {
             true => MANY_POINTS,
@@ -189,7 +189,7 @@ impl PlaneOrNot {
         found.filter(|parallax| parallax.is_seen).collect()
     }
 
-    /// Returns the median parallax of the many points, pixels; `None` without them.
+    /// Returns the median parallax of the grid's points, pixels; `None` without them.
     pub(super) fn median_px(&self) -> Option<f64> {
         let mut lengths: Vec<f64> = self.many().iter().map(Parallax::length_px).collect();
         lengths.sort_by(f64::total_cmp);
@@ -227,7 +227,7 @@ impl Model for PlaneOrNot {
         symbols([Some(pixel1), pixel2], self.geometry().as_ref())
     }
 
-    /// The homography, the fundamental matrix and the cameras.
+    /// Returns the homography, the fundamental matrix and the cameras.
     fn data(&self) -> Data {
         let [first, second] = self.cameras();
         let mut data = Data::from([
@@ -307,7 +307,7 @@ mod tests {
             ("pictures", still_life_landscape()),
         ] {
             let model = changed(&[Event::set(&FORWARD, 0.2), Event::set(&PLANE, plane)]);
-            // A point of an edge, which nothing covers.
+            // A point on a visible edge.
             let [_, _, near_right, near_left] = corners;
             let point = near_left.coords.lerp(&near_right.coords, 0.3).into();
             let [first, second] = model
@@ -321,7 +321,7 @@ mod tests {
         }
     }
 
-    /// Asserts H&Z 13.2: prediction and match are on one epipolar line, whatever the plane.
+    /// Asserts H&Z 13.2: prediction and match are on one epipolar line for any plane.
     #[test]
     fn parallax_is_along_epipolar_lines() {
         for plane in ["table", "pictures", "infinity"] {

@@ -152,7 +152,7 @@ fn draw_second(model: &PlaneOrNot, panel: &Panel, canvas: &mut Canvas) {
     );
 }
 
-/// Draws an arrow from a prediction to its match, or a dot where there is none to see.
+/// Draws an arrow from a prediction to its match, or a dot if it would be too short.
 fn draw_parallax(canvas: &mut Canvas, panel: &Panel, parallax: &Parallax, stroke: Stroke) {
     let [from, to] = [parallax.predicted, parallax.pixel2].map(|pixel| panel.place_of(&pixel));
     match libm::hypot(from.0 - to.0, from.1 - to.1) >= SHORT {

@@ -5,7 +5,7 @@ use crate::contract::{Readout, Words, format_number};
 use crate::kit::words;
 
 impl PlaneOrNot {
-    /// Returns the plane in words, such as "the table".
+    /// Returns the name of the plane, such as "the table".
     fn plane_words(&self) -> &'static str {
         match self.plane() {
             Plane::Table => "the table",

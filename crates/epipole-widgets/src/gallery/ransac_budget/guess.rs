@@ -1,4 +1,4 @@
-//! The reader's guess of a curve, before the curve is shown.
+//! The reader's guess for a curve, before the curve is shown.
 
 use crate::contract::{Event, Handle, format_number};
 
@@ -9,7 +9,7 @@ pub(super) const PLOT: &str = "plot";
 pub(super) const RATIOS: [f64; 5] = [0.3, 0.45, 0.6, 0.75, 0.9];
 const IDS: [&str; 5] = ["guess30", "guess45", "guess60", "guess75", "guess90"];
 
-/// Logarithms of the smallest and the largest guess, base 10.
+/// Range of guesses: base-10 logarithms.
 const DECADES: [f64; 2] = [0.0, 6.0];
 
 /// Guessed numbers of samples.
@@ -18,17 +18,17 @@ pub(super) struct Guess {
 }
 
 impl Guess {
-    /// The same guess everywhere: 100 samples.
+    /// Creates a constant guess of 100 samples.
     pub(super) fn new() -> Self {
         Self { decades: [2.0; 5] }
     }
 
-    /// Inlier ratios, each with the logarithm of the guessed number of samples, base 10.
+    /// Returns inlier ratios, each with the base-10 logarithm of the guessed number of samples.
     pub(super) fn places(&self) -> [(f64, f64); 5] {
         [0, 1, 2, 3, 4].map(|index| (RATIOS[index], self.decades[index]))
     }
 
-    /// Returns the largest ratio of the guess to the true number, or of that to the guess.
+    /// Returns the maximum ratio between guess and true number, in either direction.
     pub(super) fn worst_factor(&self, truth: [u64; 5]) -> f64 {
         let errors = (self.decades.into_iter().zip(truth))
             .map(|(decade, count)| (decade - libm::log10(count as f64)).abs());
@@ -47,7 +47,7 @@ impl Guess {
         self.places().into_iter().zip(IDS).map(handle).collect()
     }
 
-    /// Takes a drag or, at the nearest inlier ratio, a click; returns whether it was one.
+    /// Handles a drag or, at the nearest inlier ratio, a click. Returns whether it was one.
     pub(super) fn update(&mut self, event: &Event) -> bool {
         let handles = self.handles();
         let index = match event {

@@ -8,10 +8,10 @@ use crate::contract::{
 };
 use epipole::robust::num_trials_with_replacement;
 
-/// Sample sizes: of a line, a homography, E, and F from seven or from eight matches.
+/// Sample sizes: for a line, a homography, E, and F from seven or from eight matches.
 pub(super) const SIZES: [usize; 5] = [2, 4, 5, 7, 8];
 
-/// Smallest and largest inlier ratio, and the default.
+/// Minimum and maximum inlier ratio; then the default.
 pub(super) const RATIOS: [f64; 2] = [0.1, 0.99];
 const RATIO: f64 = 0.5;
 
@@ -41,7 +41,7 @@ pub struct RansacBudget {
 }
 
 impl RansacBudget {
-    /// Whether the curves are shown, not the guess alone.
+    /// Returns whether the curves are shown, rather than only the guess.
     pub(super) fn shows_curves(&self) -> bool {
         self.settings.chosen(&SHOW) != 1
     }
@@ -51,7 +51,7 @@ impl RansacBudget {
         (self.settings.chosen(&SHOW) != 0).then_some(&self.guess)
     }
 
-    /// Returns the largest factor by which the guess is off, if it is compared with the curve.
+    /// Returns the maximum factor between guess and curve, if they are compared.
     pub(super) fn guess_factor(&self) -> Option<f64> {
         let truth = guess::RATIOS.map(|w| self.trials(GUESSED, w).unwrap_or(u64::MAX));
         let guess = self.guess().filter(|_| self.shows_curves())?;
@@ -112,7 +112,7 @@ impl Model for RansacBudget {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
-        // With the curves, a click is for their dashed line.
+        // With the curves shown, a click moves their dashed line.
         let is_click = matches!(event, Event::Clicked { .. });
         let is_guess = self.guess().is_some()
             && !(is_click && self.shows_curves())

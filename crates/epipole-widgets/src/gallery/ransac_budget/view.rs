@@ -12,7 +12,7 @@ use crate::theme::Role;
 const HEIGHT: f64 = 420.0;
 /// Line spacing of the legend, CSS pixels.
 const ROW: f64 = 18.0;
-/// Width of the legend, from its markers to the right edge, CSS pixels: nine digits fit.
+/// Width of the legend from its markers to the right edge, CSS pixels; nine digits fit.
 const LEGEND: f64 = 128.0;
 /// Number of points per curve.
 const NUM_STEPS: u32 = 890;
@@ -74,7 +74,7 @@ fn draw_curves(model: &RansacBudget, plot: &Panel, canvas: &mut Canvas) {
     let now = Stroke::solid(Role::Grip, 2.0).dashed();
     canvas.line((u, top.max(plot.rect.y)), (u, plot.rect.bottom()), now);
     canvas.grip(plot.canvas_from_world((ratio, 0.0)), Role::Grip);
-    // The curves fall, so the upper right corner is always free; the largest sample has the
+    // The curves decrease, so the upper right corner is always free; the largest sample has the
     // highest curve.
     let left = plot.rect.right() - LEGEND;
     for (index, size) in SIZES.into_iter().enumerate() {

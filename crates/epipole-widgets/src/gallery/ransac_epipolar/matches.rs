@@ -10,7 +10,7 @@ pub(super) struct Match {
     pub(super) places: [[f64; 2]; 2],
     /// Ratio of the distances to the nearest and the second nearest descriptor (Lowe).
     pub(super) ratio: f32,
-    /// Whether the match is correct, where the truth is known.
+    /// Whether the match is correct, if the truth is known.
     pub(super) is_right: Option<bool>,
 }
 

@@ -83,7 +83,7 @@ pub struct RansacEpipolar {
 }
 
 impl RansacEpipolar {
-    /// Returns the photographs and all their matches.
+    /// Returns the photographs with all matches.
     pub(super) fn matched(&self) -> Option<&Matched> {
         match self.matched.answer()? {
             Answer::Matched(found) => Some(found),
@@ -91,7 +91,7 @@ impl RansacEpipolar {
         }
     }
 
-    /// Returns width and height of both photographs, pixels, also before they are there.
+    /// Returns width and height of both photographs, pixels, even before they are available.
     pub(super) fn sizes(&self) -> [(u32, u32); 2] {
         let is_own = self.settings.chosen(&SOURCE) == OWN;
         let own = |index| self.own.get(index).filter(|_| is_own);
@@ -210,15 +210,15 @@ impl RansacEpipolar {
         self.votes.ask(Question::Votes(voters));
     }
 
-    /// Draws to `count` samples in total. The requested number is kept, since other settings may
-    /// need more.
+    /// Draws until there are `count` samples. The requested number is kept, since other settings
+    /// may need more.
     fn draw_to(&mut self, count: usize) {
         self.settings.slide(&ITERATIONS, count as f64);
         self.running
             .stop_if(self.votes().is_none() || self.is_finished());
     }
 
-    /// Returns the number of correct matches among the best F's inliers, where the truth is known.
+    /// Returns the number of correct matches among the best F's inliers, if the truth is known.
     pub(super) fn num_right(&self) -> Option<usize> {
         let best = self.best()?;
         let mut count = 0;
@@ -254,7 +254,7 @@ impl Declared for RansacEpipolar {
 }
 
 impl Model for RansacEpipolar {
-    /// The matches that have voted.
+    /// Returns the matches that have voted.
     fn data(&self) -> Data {
         let matches = self.matches();
         let pixels: Vec<_> = matches

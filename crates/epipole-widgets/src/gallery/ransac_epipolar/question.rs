@@ -20,7 +20,7 @@ pub(super) const STILL_LIFE_SIZE: (u32, u32) = features::SIZE;
 pub(super) enum Question {
     /// The matches of the rendered still life.
     StillLife,
-    /// The matches of the reader's own photographs.
+    /// The matches of the reader's photographs.
     Own([Picture; 2]),
     /// The votes of matches.
     Votes(Voters),
@@ -100,7 +100,7 @@ fn still_life(progress: Progress<'_>) -> Result<Matched, Problem> {
 
 /// Finds mutual nearest neighbors; the ratio test comes later.
 ///
-/// * `judge`: returns whether the features of these indices are a correct match, if known
+/// * `judge`: returns whether the features with these indices are a correct match, if known
 fn find_matches(
     [first, second]: [&Features; 2],
     judge: impl Fn(usize, usize) -> Option<bool>,

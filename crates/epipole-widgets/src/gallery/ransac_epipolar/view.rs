@@ -1,4 +1,4 @@
-//! Two photographs, their matches from one to the other, and what the votes make of them.
+//! Two photographs, the matches between them, and the result of the votes.
 
 use super::model::{RansacEpipolar, Show};
 use super::words;
@@ -11,10 +11,10 @@ use crate::theme::Role;
 use epipole::epipolar::epipolar_line2;
 use image::RgbImage;
 
-/// Maximum height of a photograph, CSS pixels, so that a tall one leaves room for the rest.
+/// Maximum height of a photograph, CSS pixels, to leave room for the rest.
 const TALLEST: f64 = 372.0;
-/// Maximum number of inliers, and of outliers, drawn as lines on a wide page, so that the
-/// photographs stay visible.
+/// Maximum number of inliers, and of outliers, drawn as lines on a wide page, to keep the
+/// photographs visible.
 const NUM_CONNECTED: f64 = 70.0;
 /// Number of inliers with their epipolar lines drawn.
 const NUM_LINES: usize = 12;
@@ -149,7 +149,7 @@ fn draw_matches(model: &RansacEpipolar, show: Show, panels: [&Panel; 2], canvas:
     }
 }
 
-/// The epipolar lines of some inliers, and the inliers on them.
+/// Draws the epipolar lines of some inliers, with the inliers.
 fn draw_lines(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas) {
     let Some(best) = model.best() else {
         return;
@@ -190,7 +190,7 @@ fn draw_sample(model: &RansacEpipolar, panels: [&Panel; 2], canvas: &mut Canvas)
     }
 }
 
-/// A place in photograph 1, and the line on which the best F expects its match.
+/// Draws the probe in photograph 1, and its epipolar line by the best F.
 fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
     if model.matched().is_none() {
         return;
@@ -212,7 +212,7 @@ fn draw_probe(model: &RansacEpipolar, [first, second]: [&Panel; 2], canvas: &mut
     canvas.grip(first.place_of(&probe), Role::Grip);
 }
 
-/// Returns a hint before there is an F, or a warning about one that means nothing.
+/// Returns a hint before there is an F, or a warning about a meaningless one.
 fn notice(model: &RansacEpipolar) -> Option<String> {
     let is_untouched = model.num_samples() == 0;
     let before = model.problem().or(model.label());

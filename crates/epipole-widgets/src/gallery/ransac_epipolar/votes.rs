@@ -12,15 +12,15 @@ use epipole::two_view::{Degeneracy, TwoViewOptions, find_degeneracy};
 use nalgebra::{Matrix3, Point2};
 use serde::{Deserialize, Serialize};
 
-/// The matches and the options of the loop.
+/// Matches and options of the loop.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Voters {
     /// Column and row in photograph 1, then in photograph 2, of each match.
     pub(super) places: Vec<[[f64; 2]; 2]>,
-    /// Maximum ratio of the matches.
+    /// Maximum descriptor ratio of the matches.
     pub(super) most_ratio: f32,
     pub(super) rules: Rules,
-    /// Whether the truth is unknown; degeneracies are then looked for.
+    /// Whether the truth is unknown, in which case degeneracies are checked.
     pub(super) is_own: bool,
 }
 
@@ -28,20 +28,20 @@ pub(super) struct Voters {
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Votes {
     trials: Vec<Trial>,
-    /// Best models in order, each with more votes than the one before.
+    /// Best models in order, each with more votes than the previous one.
     bests: Vec<Best>,
-    /// Reason for having no F, as a sentence.
+    /// Message why there is no F.
     pub(super) refusal: Option<String>,
     /// Degeneracy of the last best model.
     pub(super) left_open: Option<LeftOpen>,
 }
 
-/// Degeneracy of an F, and the number of its inliers that cause it.
+/// Degeneracy of an F, with the number of inliers that cause it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) enum LeftOpen {
     /// The matches have the same position in both photographs.
     Unmoved(usize),
-    /// One homography explains the matches.
+    /// One homography explains them.
     Homography(usize),
 }
 
@@ -80,10 +80,9 @@ impl Voters {
         }
     }
 
-    /// Runs the loop. Too few matches, or matches all on a line, give a refusal.
+    /// Runs the loop. Too few or collinear matches give a refusal.
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(super) fn vote(&self, progress: Progress<'_>) -> Result<Votes, Error> {
         let mut votes = Votes::default();
         let mut samples = match self.begin() {
@@ -99,7 +98,7 @@ impl Voters {
                 let best = samples.best().map(|fundamental| self.refitted(fundamental));
                 votes.bests.extend(best);
             }
-            // The loop has ended if it draws no further sample.
+            // The loop has ended if it draws no more samples.
             let Some(last) = samples.last().filter(|_| samples.count() == count) else {
                 break;
             };
@@ -155,7 +154,7 @@ impl Voters {
             let marked = self.pixels(side).zip(&is_inlier);
             marked.filter(|(_, is)| **is).map(|(p, _)| p).collect()
         });
-        // Keep the sample's F if its inliers do not determine one.
+        // Keeps the sample's F if its inliers do not determine one.
         let fundamental = refine_fundamental(fundamental, &pixels1, &pixels2, RobustLoss::Trivial)
             .unwrap_or(*fundamental);
         let pairs = pixels1.iter().zip(&pixels2);
@@ -185,7 +184,7 @@ impl Votes {
         }
     }
 
-    /// Returns whether these can be the votes of `num_matches` matches.
+    /// Returns whether they are consistent with `num_matches` matches.
     pub(super) fn fit(&self, num_matches: usize) -> bool {
         let trial_fits = |trial: &Trial| {
             trial.num_bests <= self.bests.len() && trial.sample.iter().all(|&k| k < num_matches)
@@ -202,7 +201,7 @@ impl Votes {
 /// State of the loop after some samples.
 #[derive(Clone, Copy)]
 pub(super) struct Moment<'a> {
-    /// The last sample that was drawn.
+    /// The last sample.
     pub(super) last: Option<&'a Trial>,
     pub(super) best: Option<&'a Best>,
 }

@@ -22,7 +22,7 @@ const ITERATIONS: Slider = Slider::new("iterations", "Samples drawn")
     .range(0.0, MAX_SAMPLES as f64, 1.0)
     .at(7.0)
     .hidden();
-/// Phase of the last sample's animation, 0 to 1: drawn, band shown, votes cast.
+/// Phase of the last sample's animation, 0 to 1: sample drawn, band shown, votes cast.
 const PHASE: Slider = Slider::new("phase", "Votes cast")
     .range(0.0, 1.0, 0.005)
     .at(1.0)
@@ -32,7 +32,7 @@ const KNOBS: &[Knob] = knobs![
     OUTLIERS, EPSILON, MSAC, LOCAL, COUNT, SEED, ITERATIONS, PHASE
 ];
 
-/// Pace of the animation: slow enough to follow the votes at first, then faster with each sample.
+/// Initial pace of the animation, slow enough to follow the votes; it increases with each sample.
 const SAMPLES_PER_SECOND: f64 = 0.7;
 const FASTER: f64 = 1.25;
 const MOST_PER_SECOND: f64 = 15.0;
@@ -44,17 +44,17 @@ pub(crate) struct RansacLine {
     tally: Result<Tally, String>,
     pub(super) asked: Computation<Question>,
     running: Running,
-    /// Samples drawn when it last began to run.
+    /// Number of samples when it last started to run.
     run_from: usize,
 }
 
 impl RansacLine {
-    /// Returns the samples so far, or why there are none.
+    /// Returns the samples so far, or a message why there are none.
     pub(super) fn tally(&self) -> Result<&Tally, &str> {
         self.tally.as_ref().map_err(String::as_str)
     }
 
-    /// Returns the hundred runs of each kind, possibly of earlier settings.
+    /// Returns the hundred runs of each kind, possibly for earlier settings.
     pub(super) fn runs(&self) -> Option<&Runs> {
         self.asked.answer()
     }
@@ -115,7 +115,7 @@ impl RansacLine {
         });
     }
 
-    /// Draws to `count` samples, the last one in this phase.
+    /// Draws until there are `count` samples, the last one in this phase.
     fn run_to(&mut self, count: usize, phase: f64) {
         self.settings.slide(&ITERATIONS, count as f64);
         self.settings.slide(&PHASE, phase);
@@ -180,12 +180,12 @@ impl Model for RansacLine {
                 let next = self.running.update(event, drawn, is_finished);
                 let from = next.unwrap_or(drawn);
                 match self.running.is_running() && !was_running {
-                    // The first sample starts at once.
+                    // The first sample starts immediately.
                     true => {
                         self.run_from = from;
                         self.run_to(from + 1, 0.0);
                     }
-                    // Stepping and stopping show the sample complete, without its animation.
+                    // After a step or a stop, the sample is shown complete, without its animation.
                     false => self.run_to(from, 1.0),
                 }
             }

@@ -1,4 +1,4 @@
-//! A hundred runs of each kind, each run on its own points.
+//! A hundred runs of each kind, each with its own points.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::line_points::{angle_between_deg, scatter};

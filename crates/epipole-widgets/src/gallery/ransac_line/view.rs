@@ -24,7 +24,7 @@ const LAST: f64 = 0.72;
 /// Flight time of a vote, as a fraction of a sample's time.
 const FLIGHT: f64 = 0.26;
 const DECADES: [f64; 2] = [-1.7, 1.95];
-/// End of the axis, in decades: a number fits beyond the dots.
+/// End of the axis, in decades, with room for a number beyond the dots.
 const AXIS_END: f64 = 2.75;
 
 const CANDIDATE: Stroke = Stroke::solid(Role::Candidate, 2.0);
@@ -124,7 +124,7 @@ impl View for RansacLineView {
     }
 }
 
-/// Interpolates 0 to 1 from `start` to `end`, slow at both ends.
+/// Interpolates from 0 to 1 between `start` and `end`, slowly at both ends.
 fn eased(phase: f64, start: f64, end: f64) -> f64 {
     let share = ((phase - start) / (end - start)).clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
@@ -152,7 +152,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
         let text = format!("{num_in_region} of {} outliers", scattered.num_outliers);
         canvas.label((region_rect.x, row), &text, style);
     }
-    // At the end the winner and its voters are shown, not the last sample.
+    // At the end the winner and its inliers are shown, not the last sample.
     let is_decided = model.is_decided();
     let candidate = match is_decided {
         true => tally.best.as_ref(),
@@ -168,7 +168,7 @@ fn draw_plane(model: &RansacLine, tally: &Tally, panel: &Panel, canvas: &mut Can
     if let Some(candidate) = candidate.filter(|_| !is_decided) {
         draw_line(canvas, panel, &candidate.line, CANDIDATE);
     }
-    // The best so far is known once the votes are counted.
+    // The best line is known once the votes are counted.
     if let Some(best) = tally.best.as_ref().filter(|_| phase >= 1.0) {
         draw_line(canvas, panel, &best.line, BEST);
     }
@@ -295,7 +295,7 @@ fn draw_runs(model: &RansacLine, panel: &Panel, canvas: &mut Canvas) {
                 Role::Reference
             };
             for (index, run) in runs.0[kind].iter().enumerate() {
-                // Spread over the row, so that dots do not overlap.
+                // Spread over the row, to avoid overlaps.
                 let aside = 0.6 * ((index * 37 % 100) as f64 / 100.0 - 0.5);
                 canvas.disk(at(run.error_deg, row + aside), 1.7, role, 0.8);
             }

@@ -19,7 +19,7 @@ pub(super) struct Fits {
     /// can still sample.
     pub(super) least_squares: Option<Line2>,
     pub(super) tally: Option<Tally>,
-    /// Reason for having no fit, as a sentence.
+    /// Message why there is no fit.
     pub(super) problem: Option<String>,
 }
 
@@ -44,7 +44,7 @@ pub(super) enum Ending {
 }
 
 impl Fits {
-    /// Fits both ways, drawing `num_samples` samples, or fewer if they are enough.
+    /// Fits both ways, drawing `num_samples` samples, or fewer if they are sufficient.
     pub(super) fn new(
         places: &[Point2<f64>],
         truth: Line2,

@@ -1,6 +1,6 @@
 //! Points on a hidden line among outliers; least squares and the core's RANSAC, sample by sample.
 //!
-//! The state is the settings, the points and the number of samples. Everything else is recomputed
+//! The state consists of the settings, the points and the number of samples. All else is recomputed
 //! from these after each event, so a permalink replays exactly.
 
 use super::fits::Fits;
@@ -61,7 +61,7 @@ impl RansacRace {
         self.fits = fit_as(&self.settings, self.truth, &self.points);
     }
 
-    /// Draws to `iterations` samples in total, or as many as the budget asks for. The requested
+    /// Draws until there are `iterations` samples, or as many as the budget requires. The requested
     /// number is kept, since other data may need more.
     fn run_to(&mut self, iterations: usize) {
         self.settings.slide(&ITERATIONS, iterations as f64);
@@ -69,7 +69,8 @@ impl RansacRace {
         self.running.stop_if(self.fits.is_finished());
     }
 
-    /// Adds a point unless there are enough; numbers up to COUNT belong to the initial points.
+    /// Adds a point unless the maximum is reached; numbers up to COUNT belong to the initial
+    /// points.
     fn add(&mut self, number: usize, x: f64, y: f64) -> bool {
         let num_drawn = self.settings.count(&COUNT);
         let added = self.points.iter().filter(|point| point.number > num_drawn);
@@ -88,14 +89,14 @@ fn fit_as(settings: &Settings, truth: Line2, points: &Points) -> Fits {
         seed: settings.count(&SEED) as u64,
         max_samples: MAX_SAMPLES,
         msac: false,
-        // The plain loop is shown: candidates come straight from two points.
+        // The plain loop is shown: hypotheses come directly from two points.
         local_optimization: false,
     };
     let count = settings.count(&ITERATIONS);
     Fits::new(&points.places(), truth, rules, count)
 }
 
-/// Returns the hidden line, and points that the reader may drag.
+/// Returns the hidden line, and points that the reader can drag.
 fn scattered(settings: &Settings) -> (Line2, Points) {
     let Scatter { truth, points, .. } = Scatter::by(settings, &SEED, &OUTLIERS);
     (truth, Points::new(POINT, FEWEST, points))
@@ -148,7 +149,7 @@ impl Model for RansacRace {
         }
         if let Some(id) = self.settings.update(event)? {
             if [OUTLIERS.id, COUNT.id, SEED.id].contains(&id) {
-                // New points discard those that the reader had moved or added.
+                // New points discard those that the reader has moved or added.
                 (self.truth, self.points) = scattered(&self.settings);
             }
             self.run_to(self.settings.count(&ITERATIONS));
@@ -275,7 +276,7 @@ mod tests {
 
     #[test]
     fn there_is_something_to_watch() {
-        // The default state shows RANSAC nearer already, with two improvements left to see.
+        // In the default state RANSAC is closer already, with two improvements to come.
         let mut model = RansacRace::new();
         let angles = model.fits.angles_deg();
         assert!(angles.ransac.unwrap() < 2.0 && angles.least_squares.unwrap() > 8.0);
@@ -290,7 +291,7 @@ mod tests {
         }
     }
 
-    /// The book's claim about all seeds.
+    /// Asserts the book's claim about all seeds.
     #[test]
     fn at_seven_in_ten_no_seed_fails_and_at_eight_in_ten_one_in_three() {
         let failures = |outliers: f64| -> Vec<(u32, Ending)> {
@@ -320,7 +321,7 @@ mod tests {
         model.run_to(MAX_SAMPLES);
         assert!(model.fits.num_samples() > 100);
         assert_eq!(model.fits.ending(), Some(Ending::Right));
-        // With a wide band a wrong line wins, and the figure says so.
+        // With a wide band a wrong line wins, and the figure reports it.
         model.update(&Event::set(&EPSILON, 20.0)).unwrap();
         assert_eq!(model.fits.ending(), Some(Ending::Outvoted));
         assert!(model.describe().contains("A wrong line has won"));

@@ -37,7 +37,7 @@ impl View for RansacRaceView {
 
     fn layout(&self, _: &RansacRace, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        // On a broad page a tall picture would fill the whole screen.
+        // On a wide page a tall picture would fill the whole screen.
         let is_broad = grid::is_broad(width);
         let tallest = if is_broad { WHOLE_SCREEN } else { TALLEST };
         let [plane] = grid.row([HEIGHT_PX / WIDTH_PX], tallest);

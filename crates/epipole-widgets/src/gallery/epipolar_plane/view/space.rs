@@ -1,4 +1,4 @@
-//! The space view: cameras with their photographs, the still life as a cloud, and the plane.
+//! The 3D view: cameras with their photographs, the still life as a cloud, and the plane.
 
 use super::style::{LINE, LIT, lines, stroke};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -27,7 +27,7 @@ const TOWARDS_M: f64 = 3.0;
 const CLOUD: (u32, u32) = (84, 63);
 /// Eye, target and up vector of that render, meters.
 const CLOUD_SEEN: [[f64; 3]; 3] = [[0.0, -0.95, -1.1], [0.03, -0.12, 0.0], [0.0, -1.0, 0.0]];
-/// Maximum z of the cloud, meters, which leaves out the walls.
+/// Maximum z of the cloud, meters, which excludes the walls.
 const CLOUD_END_Z_M: f64 = 0.62;
 
 /// Returns the still life as colored points, seen from above to avoid occlusions.
@@ -108,7 +108,7 @@ pub(super) fn draw_space(
     if lit == Lit::Epipole {
         draw_epipoles(&mut space, scenery);
     }
-    // The whole ray of p: all positions P could have.
+    // The whole ray of p, on which P lies.
     let ray = scenery.point - one;
     if ray.norm() > 1e-9 {
         let far = one + ray.normalize() * (SHEET_M + 0.4);
@@ -135,7 +135,7 @@ pub(super) fn draw_space(
     });
 }
 
-/// Draws the plane as a sheet hinged on the baseline, with the triangle of both centers and P.
+/// Draws the plane as a sheet attached to the baseline, with the triangle of both centers and P.
 fn draw_plane(space: &mut Space<'_>, scenery: &Scenery, plane: &Plane, is_lit: bool) {
     let [one, two] = scenery.cameras.map(|camera| camera.center_in_world());
     let (back, on) = (plane.along * -BEYOND_M, plane.along * BEYOND_M);

@@ -1,4 +1,4 @@
-//! Colors and lines of what is lit up.
+//! Colors and lines of highlighted elements.
 
 use crate::canvas::Stroke;
 use crate::gallery::epipolar_plane::model::Lit;
@@ -9,7 +9,7 @@ use epipole::math::Line2;
 /// Color of epipolar lines.
 pub(super) const LINE: Role = Role::Series(2);
 
-/// Color of what is lit up.
+/// Color of highlighted elements.
 pub(super) const LIT: Role = Role::Series(3);
 
 /// Returns the stroke of a line, highlighted or not.
@@ -21,7 +21,7 @@ pub(super) fn stroke(is_lit: bool) -> Stroke {
     }
 }
 
-/// The epipolar lines; none where only the images of P are explained.
+/// Returns the epipolar lines; none if only the images of P are explained.
 pub(super) fn lines(scenery: &Scenery, lit: Lit) -> [Option<Line2>; 2] {
     match lit {
         Lit::Point => [None, None],
