@@ -1,4 +1,4 @@
-//! Every feature's nearest neighbor, both tests, and the matches that they cost.
+//! Every feature's nearest neighbor, both tests, and the matches that they reject.
 
 use super::question::{Answer, Candidate, Question};
 use super::tally::{Rules, Tally};
@@ -16,7 +16,7 @@ pub(super) const RATIO: Slider = Slider::new("ratio", "Ratio test τ")
     .digits(2);
 const MUTUAL: Toggle = Toggle::new("mutual", "Mutual check");
 const KNOBS: &[Knob] = knobs![RATIO, MUTUAL];
-/// Margin below τ in which a match would be rejected next.
+/// Margin below τ within which a match would be rejected next.
 const BRINK: f32 = 0.05;
 /// Initially on the fringe of the cloth.
 const PROBE: Probe = Probe::new("probe", "first", "Probe in photograph 1")
@@ -201,7 +201,8 @@ mod tests {
         }
     }
 
-    /// NumPy: all distances between descriptors, sorted; the same photographs, features and truth.
+    /// Compares with NumPy on the same photographs, features and truth: all distances between
+    /// descriptors, sorted.
     #[test]
     fn the_curve_is_that_of_numpy() {
         let mut model: RatioTest = settled(&[]);

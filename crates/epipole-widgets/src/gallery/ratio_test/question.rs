@@ -1,4 +1,4 @@
-//! The two nearest neighbors of each feature, and which are correct.
+//! The two nearest neighbors of each feature, and which of them are correct.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::features::{Pair, RIGHT_WITHIN_PX, SIZE};
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Norm of a byte descriptor.
 const UNIT: f32 = 512.0;
 
-/// The rendered still life; there are no other inputs.
+/// Request for the rendered still life, without parameters.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
@@ -22,7 +22,7 @@ pub(super) struct Candidate {
     pub(super) nearest: [u32; 2],
     /// Their distances, for descriptors of norm 1.
     pub(super) distances: [f32; 2],
-    /// The smaller distance over the larger.
+    /// Ratio of the smaller distance to the larger.
     pub(super) ratio: f32,
     /// Whether the nearest neighbor's nearest neighbor is this feature.
     pub(super) is_mutual: bool,

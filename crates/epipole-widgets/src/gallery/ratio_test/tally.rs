@@ -1,13 +1,13 @@
-//! Numbers of matches that pass the tests, and of correct ones among them.
+//! Counts of matches that pass the tests, and of the correct ones among them.
 
 use super::question::{Answer, Candidate};
 
-/// Acceptance of matches.
+/// Criteria for accepting matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rules {
-    /// Maximum ratio of the distances to the nearest and the second nearest; 1 turns the test off.
+    /// Maximum ratio of the distances to the nearest and the second nearest; 1 disables the test.
     pub(super) max_ratio: f32,
-    /// Require mutual nearest neighbors.
+    /// Whether to require mutual nearest neighbors.
     pub(super) is_mutual: bool,
 }
 

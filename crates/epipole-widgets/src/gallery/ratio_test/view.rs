@@ -13,11 +13,11 @@ use crate::kit::patch::{self, Cuts};
 use crate::kit::plot::{self, Ruler};
 use crate::theme::Role;
 
-/// One in this many correct matches is drawn, so that the photographs stay visible.
+/// Stride over correct matches drawn, to keep the photographs visible.
 const EVERY: usize = 3;
-/// Room for the words below a patch, CSS pixels.
+/// Height of the text below a patch, CSS pixels.
 const BELOW: f64 = 20.0;
-/// The marks of the three patches, in the photographs and beside them.
+/// Marks of the three patches, in the photographs and beside them.
 const MARKS: [(Role, Shape); 3] = [
     (Role::Grip, Shape::Ring),
     (Role::Series(0), Shape::Disk),
@@ -101,7 +101,7 @@ impl View for RatioTestView {
     }
 }
 
-/// Returns three squares in a row, with room for words below them.
+/// Returns three squares in a row, with room for text below them.
 fn squares(rect: Rect) -> [Rect; 3] {
     let room = rect.height - BELOW;
     let side = ((rect.width - 2.0 * GAP) / 3.0).min(room);
@@ -127,7 +127,7 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
     let is_small = panels[0].rect.width < 250.0;
     let every = if is_small { 2 * EVERY } else { EVERY };
     let radius = if is_small { 1.5 } else { 2.25 };
-    // Faint matches first, so that they cover nothing, then correct, then wrong ones.
+    // Faint matches first, so that they cover nothing, then correct ones, then wrong ones.
     for pass in 0..3 {
         for (index1, found) in answer.candidates.iter().enumerate() {
             let is_faint = model.is_on_the_brink(found);
@@ -150,7 +150,7 @@ fn draw_matches(model: &RatioTest, answer: &Answer, panels: [&Panel; 2], canvas:
                 stroke
             };
             let [from, to] = ends(answer, index1, found, panels);
-            // The choice does not depend on τ, so that nothing flickers.
+            // The selection does not depend on τ, to avoid flicker.
             if !found.is_right && !is_small || index1 % every == 0 {
                 canvas.line(from, to, stroke);
             }

@@ -1,4 +1,4 @@
-//! `rectify`: rotation of two cameras about their centers until epipolar lines are rows.
+//! `rectify`: rotation of two cameras about their centers until epipolar lines become rows.
 
 mod model;
 mod turned;

@@ -1,4 +1,4 @@
-//! Two cameras not yet aligned for stereo, some matches, and the progress of their rotation.
+//! Two cameras that are not aligned for stereo, some matches, and the progress of their rotation.
 
 use super::turned::{Turned, Way};
 use crate::contract::{
@@ -39,7 +39,7 @@ const MATCH: Slider = Slider::new("match", "Match p")
 const KNOBS: &[Knob] = knobs![PARALLEL, ALONG, TURN, FORWARD, FRAME, MATCH];
 
 const NUM_MATCHES: usize = 8;
-/// Pixels of photograph 1 with their matches shown, spread over the objects and the walls.
+/// Pixels of photograph 1 whose matches are shown, spread over objects and walls.
 const PIXELS: [(f64, f64); NUM_MATCHES] = [
     (70.0, 70.0),
     (330.0, 60.0),
@@ -55,14 +55,14 @@ const PIXELS: [(f64, f64); NUM_MATCHES] = [
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Shown {
     pub(super) point: Point3<f64>,
-    /// Pixels in the rotated pictures.
+    /// Pixels in the rotated images.
     pub(super) pixels: [Point2<f64>; 2],
-    /// Whether photograph 2 shows the point: neither hidden nor outside.
+    /// Whether the point is visible in photograph 2: neither hidden nor outside.
     pub(super) is_seen: bool,
 }
 
 impl Shown {
-    /// Returns the row in picture 2 minus the row in picture 1, pixels.
+    /// Returns the row in image 2 minus the row in image 1, pixels.
     pub(super) fn rows_px(&self) -> f64 {
         self.pixels[1].y - self.pixels[0].y
     }
@@ -101,8 +101,7 @@ impl State {
         })
     }
 
-    /// Returns the largest difference of rows among the matches visible in both photographs,
-    /// pixels.
+    /// Returns the maximum row difference among the matches visible in both photographs, pixels.
     pub(super) fn worst_px(&self) -> f64 {
         let seen = self.matches.iter().filter(|shown| shown.is_seen);
         seen.map(|shown| shown.rows_px().abs()).fold(0.0, f64::max)
@@ -116,13 +115,13 @@ pub(crate) struct Rectify {
 }
 
 impl Rectify {
-    /// Returns the rotated pair, or why there is none.
+    /// Returns the rotated pair, or a message why there is none.
     pub(super) fn state(&self) -> Result<&State, &str> {
         let state = self.state.get_or_init(|| self.compute());
         state.as_ref().map_err(String::as_str)
     }
 
-    /// Returns the match labeled p and p′, if camera 1 sees it.
+    /// Returns the match labeled p and p′, if camera 1 sees its point.
     pub(super) fn selected(&self) -> Option<(usize, &Shown)> {
         let index = self.settings.count(&MATCH) - 1;
         Some((index, self.state().ok()?.matches.get(index)?))
@@ -153,7 +152,7 @@ impl Rectify {
         state.map_err(|error| format!("The pair cannot be rectified: {error}."))
     }
 
-    /// Returns the match nearest to a position in a picture.
+    /// Returns the match nearest to a position in an image.
     fn nearest(&self, panel: &str, place: Point2<f64>) -> Option<usize> {
         let side = match panel {
             "first" => 0,
@@ -183,7 +182,7 @@ impl Declared for Rectify {
 }
 
 impl Model for Rectify {
-    /// The matches that both photographs show, and the cameras as they are turned.
+    /// Returns the matches visible in both photographs, and the rotated cameras.
     fn data(&self) -> Data {
         let Ok(state) = self.state() else {
             return Data::new();

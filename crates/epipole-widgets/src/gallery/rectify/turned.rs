@@ -1,5 +1,5 @@
-//! A pair of cameras on the way to the rectified one: first made parallel, then aligned with the
-//! baseline.
+//! A pair of cameras between its initial poses and the rectified ones: first made parallel, then
+//! aligned with the baseline.
 
 use crate::kit::scenes::{PHOTO_SIZE, PHOTO_WIDTH, still_life_pair};
 use epipole::Error;
@@ -18,18 +18,19 @@ pub(super) struct Way {
     pub(super) parallel: f64,
     /// Fraction of the common rotation toward the baseline, 0 to 1.
     pub(super) along: f64,
-    /// Whether the rectified pair shows both photographs whole, or only the pixels common to both.
+    /// Whether the rectified pair shows both photographs entirely, or only the pixels common to
+    /// both.
     pub(super) shows_all: bool,
 }
 
 /// The pair as photographed, and as rotated.
 pub(super) struct Turned {
     pub(super) taken: [PosedCamera; 2],
-    /// Rotated camera of each photograph.
+    /// Rotated cameras.
     pub(super) shown: [PosedCamera; 2],
-    /// Homographies from pixels of the photographs to pixels shown.
+    /// Homographies from pixels of the photographs to displayed pixels.
     pub(super) shown_from_taken: [Matrix3<f64>; 2],
-    /// Valid rectangle of each rectified picture.
+    /// Valid rectangle of each rectified image.
     pub(super) valid: [PixelRect; 2],
 }
 
@@ -50,7 +51,8 @@ impl Turned {
             true => frames_of_all(&rectified),
             false => [Frame::SAME; 2],
         };
-        // Each camera rotates by half of the relative rotation; the rest is the same for both.
+        // Each camera rotates by half of the relative rotation; the remaining rotation is the same
+        // for both.
         let half = motion.rotation.powf(0.5);
         let whole = UnitQuaternion::from_rotation_matrix(&rectified.rect_from_cam[0]);
         let together = (whole * half.inverse()).powf(way.along);
@@ -90,7 +92,7 @@ impl Turned {
         (one * two.inverse()).angle().to_degrees()
     }
 
-    /// Returns the largest angle between the baseline and the rows of a picture, degrees.
+    /// Returns the maximum angle between the baseline and the rows of an image, degrees.
     pub(super) fn off_baseline_deg(&self) -> f64 {
         let [one, two] = self.shown.map(|camera| camera.center_in_world());
         let angles = self.shown.map(|camera| {
@@ -100,7 +102,8 @@ impl Turned {
         angles[0].max(angles[1])
     }
 
-    /// Returns the smaller fraction of a rectified picture that its photograph fills, 0 to 1.
+    /// Returns the fraction of a rectified image that its photograph fills, the smaller of the two,
+    /// 0 to 1.
     pub(super) fn valid_share(&self) -> f64 {
         let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
         let all = right * bottom;
@@ -108,7 +111,7 @@ impl Turned {
         area(&self.valid[0]).min(area(&self.valid[1])) / all
     }
 
-    /// Returns center (x, z) and heading in radians, seen from above in the initial frame of camera
+    /// Returns center (x, z) and heading in radians in a top view, in the initial frame of camera
     /// 1.
     pub(super) fn seen_from_above(&self, index: usize) -> (Point2<f64>, f64) {
         let frame = self.taken[0].cam_from_world;
@@ -122,7 +125,7 @@ impl Turned {
     }
 }
 
-/// Scaling and shift of a rectified picture.
+/// Scaling and shift of a rectified image.
 #[derive(Debug, Clone, Copy)]
 struct Frame {
     scale: f64,
@@ -145,7 +148,7 @@ impl Frame {
         )
     }
 
-    /// Transforms a rectangle and clips it to the picture.
+    /// Transforms a rectangle and clips it to the image.
     fn rect(&self, rect: &PixelRect) -> PixelRect {
         let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
         let u = |u: f64| (self.scale * u + self.shift.x).clamp(0.0, right);
@@ -159,7 +162,7 @@ impl Frame {
     }
 }
 
-/// Returns the corners of a photograph in its rectified picture, in order from the upper left.
+/// Returns the corners of a photograph in its rectified image, in order from the upper left.
 fn corners(rectified: &Rectification, index: usize) -> [Point2<f64>; 4] {
     let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
     [(0.0, 0.0), (right, 0.0), (right, bottom), (0.0, bottom)].map(|(u, v)| {
@@ -168,7 +171,7 @@ fn corners(rectified: &Rectification, index: usize) -> [Point2<f64>; 4] {
     })
 }
 
-/// Returns frames that show both photographs whole and as large as possible, with equal rows.
+/// Returns frames that show both photographs entirely and as large as possible, with equal rows.
 fn frames_of_all(rectified: &Rectification) -> [Frame; 2] {
     let bounds = |index: usize, axis: usize| {
         let values = corners(rectified, index).map(|corner| corner[axis]);
@@ -191,8 +194,7 @@ fn frames_of_all(rectified: &Rectification) -> [Frame; 2] {
     })
 }
 
-/// Returns a rectangle that the photograph fills in its rectified picture: between the inner
-/// corners.
+/// Returns a rectangle that the photograph fills in its rectified image: between the inner corners.
 fn valid_part(rectified: &Rectification, index: usize) -> PixelRect {
     let [a, b, c, d] = corners(rectified, index);
     PixelRect {
@@ -215,7 +217,7 @@ fn between([from, to]: [Intrinsics; 2], share: f64) -> Result<Intrinsics, Error>
     )
 }
 
-/// Returns the horizontal ends of a picture on the image plane at distance 1, relative to the axis.
+/// Returns the horizontal ends of an image on the image plane at distance 1, relative to the axis.
 pub(super) fn image_ends(camera: &PosedCamera) -> [f64; 2] {
     let k = &camera.camera.intrinsics;
     let at = |u: f64| (u - k.principal_point().x) / k.fu_px();
@@ -308,7 +310,7 @@ mod tests {
             let turned = Turned::new(-0.05, 10.0, way).unwrap();
             let (center, heading) = turned.seen_from_above(1);
             assert!((center - Point2::new(RIGHT_M, -0.05)).norm() < 1e-9);
-            // Perpendicular to the baseline at the end, rotated left by 10° at first.
+            // Perpendicular to the baseline at the end, rotated by 10° to the left at the start.
             let expected = match way == DONE {
                 true => libm::atan2(0.05, RIGHT_M),
                 false => -10.0_f64.to_radians(),

@@ -1,4 +1,4 @@
-//! Both photographs as rotated cameras would have taken them, and the cameras from above.
+//! Both photographs as taken by rotated cameras, and a top view of the cameras.
 
 use super::model::{Rectify, Shown, State};
 use super::turned::image_ends;
@@ -16,7 +16,7 @@ use nalgebra::{Matrix3, Point2};
 const MARKER: f64 = 4.5;
 /// Color of the selected match.
 const LIT: Role = Role::Series(3);
-/// The line of the chosen match.
+/// Color of the epipolar line of the selected match.
 const LINE: Role = Role::Series(2);
 /// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.42;
@@ -143,7 +143,7 @@ fn draw_marks(model: &Rectify, state: &State, index: usize, panel: &Panel, canva
     }
 }
 
-/// Draws the row of p through both pictures, and the distance of p′ from it.
+/// Draws the row of p through both images, and the distance of p′ from it.
 fn draw_row(model: &Rectify, [first, second]: [&Panel; 2], canvas: &mut Canvas) {
     let Some((_, shown)) = model.selected() else {
         return;

@@ -1,4 +1,4 @@
-//! A mug on the table, a camera at table height that cannot measure its distance, and one from the
+//! A mug on a table, a camera at table height that cannot determine its distance, and one at the
 //! side that can.
 
 use crate::contract::{
@@ -22,7 +22,7 @@ const RISE: f64 = 0.2;
 /// Range of the mug's distance, meters.
 pub(super) const RANGE_M: [f64; 2] = [0.5, 2.5];
 const START_M: f64 = 1.5;
-/// Height of the mug that keeps its size, meters.
+/// Height of the mug if its size is fixed, meters.
 const OWN_HEIGHT_M: f64 = 0.3;
 
 const GROWTH: Choice = Choice::new(

@@ -1,4 +1,4 @@
-//! Both photographs, and between them the table from above.
+//! Both photographs, and between them a top view of the table.
 
 use super::model::{CENTER2_M, FOCALS_PX, RANGE_M, RIGHT, SIZE, SamePicture};
 use crate::canvas::{Align, Canvas, Stroke, TextStyle};
@@ -27,8 +27,8 @@ pub(crate) struct SamePictureView {
     photos: [Photo; 2],
     /// Distance and height of the mug in the photographs, meters.
     rendered: Option<[f64; 3]>,
-    /// Last sharp photograph 1, whether its mug grows, and its state. With a growing mug it is
-    /// valid for every distance.
+    /// Last sharp photograph 1, with the state for which it is valid and whether the mug grows.
+    /// With a growing mug it is valid for every distance.
     sharp: Option<(bool, [f64; 3], RgbImage)>,
 }
 
@@ -82,7 +82,7 @@ impl View for SamePictureView {
             return false;
         };
         let shown = self.shown(model);
-        // Refine first what the reader sees change.
+        // The photograph that changes visibly is refined first.
         let [first, second] = &mut self.photos;
         if second.refine(&scene, &cameras[1], shown, SIZE)
             || first.refine(&scene, &cameras[0], shown, SIZE)
@@ -99,7 +99,7 @@ impl View for SamePictureView {
 }
 
 impl SamePictureView {
-    /// Returns the state that the photographs show; discards photographs of another state.
+    /// Returns the state in the photographs; discards photographs of another state.
     fn shown(&mut self, model: &SamePicture) -> [f64; 3] {
         let shown = [model.distance_m, model.height_m(), 0.0];
         if self.rendered != Some(shown) {
@@ -207,7 +207,7 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
         let center = centers[index];
         let camera = PlanCamera {
             center,
-            // Camera 2 looks to the left.
+            // Camera 2 points to the left.
             heading_rad: [0.0, -std::f64::consts::FRAC_PI_2][index],
             half_width: half_widths[index],
             mark: CAMERAS[index],
@@ -219,7 +219,7 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
         let towards = Point2::new(RIGHT * z, z) - center;
         camera.draw_sight(canvas, panel, &mut labels, name, IMAGE_M, &towards);
     }
-    // Camera 2's ray to the left runs through one of the numbers.
+    // The ray of camera 2 crosses one of the numbers, so they are drawn again.
     plan::draw_numbers(canvas, panel, "m");
     canvas.disk(mug, radius, Role::Candidate, 0.55);
     canvas.grip(mug, Role::Grip);
@@ -231,8 +231,8 @@ fn draw_top(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
     labels.draw(canvas, &beside, &text, ink);
 }
 
-/// Draws all mugs with the same photograph, as circles between two rays; for a mug of fixed size,
-/// the possible circles.
+/// Draws all mugs with the same image, as circles between two rays; for a mug of fixed size, the
+/// possible circles.
 fn draw_cone(model: &SamePicture, panel: &Panel, canvas: &mut Canvas) {
     if !model.grows() {
         for z in ECHOES_M {

@@ -1,4 +1,4 @@
-//! `scale-ambiguity`: a larger house from a longer baseline makes the same two photographs.
+//! `scale-ambiguity`: a larger house with a longer baseline gives the same two photographs.
 
 mod model;
 mod view;

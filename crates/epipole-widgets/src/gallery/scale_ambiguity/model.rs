@@ -9,9 +9,9 @@ use crate::kit::orbit::{Orbit, SPACE};
 use epipole::camera::{PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3, Translation3};
 
-/// Indices of the two cameras of the house that photograph it.
+/// Indices of the two cameras whose photographs are shown.
 const PAIR: [usize; 2] = [1, 2];
-/// Changes below this count as none, pixels.
+/// Changes below this are treated as zero, pixels.
 const SAME_PX: f64 = 1e-6;
 
 const HOUSE: Slider = Slider::new("house", "House size")
@@ -78,7 +78,7 @@ impl ScaleAmbiguity {
         })
     }
 
-    /// Returns the largest displacement of a point in each photograph, pixels; `None` if a point is
+    /// Returns the maximum displacement of a point in each photograph, pixels; `None` if a point is
     /// behind a camera.
     pub(super) fn changes_px(&self) -> Option<[f64; 2]> {
         let (before, now) = (self.world([1.0, 1.0])?, self.world(self.times())?);
@@ -103,7 +103,7 @@ impl Declared for ScaleAmbiguity {
         Self {
             settings: Settings::new(KNOBS),
             orbit: Orbit::new(-16.0, 30.0),
-            // The house is built from constants, which a test checks.
+            // Built from constants; a test verifies that this succeeds.
             house: House::new().ok(),
         }
     }

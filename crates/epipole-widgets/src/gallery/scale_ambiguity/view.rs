@@ -1,4 +1,4 @@
-//! The house and its cameras in space, before and now, and the two photographs.
+//! The house and its cameras in 3D, unscaled and scaled, and the two photographs.
 
 use super::model::{ScaleAmbiguity, World};
 use crate::canvas::{Canvas, Place, Stroke};
@@ -13,7 +13,7 @@ use crate::theme::Role;
 use nalgebra::Point3;
 
 const PHOTOS: [&str; 2] = ["first", "second"];
-/// Distance of the picture plane from its camera in the space, in widths of the house.
+/// Distance of the image plane from its camera in the 3D view, in widths of the house.
 const PICTURE_DEPTH: f64 = 0.55;
 
 const BEFORE: Stroke = Stroke::solid(Role::Reference, 1.5).dashed();
@@ -80,7 +80,7 @@ fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    // A fixed subject, large enough for all slider values, so that growth is visible.
+    // A fixed subject, large enough for all slider values, makes growth visible.
     let subject = Subject {
         middle: Point3::new(0.7, -0.5, 1.2),
         radius: 3.4,

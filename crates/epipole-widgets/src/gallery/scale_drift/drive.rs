@@ -1,4 +1,4 @@
-//! The drive: the true path of the camera, and its estimate by odometry.
+//! A drive: the true path of the camera, and its estimate by odometry.
 
 use epipole::camera::RigidTransform;
 use epipole::math::random::Random;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
-/// Range of the number of steps of a drive; the number is even.
+/// Range of the number of steps of a drive, which is even.
 pub(super) const STEPS: RangeInclusive<usize> = 40..=120;
 
 /// Maximum number of steps per corner of the block.
@@ -22,7 +22,7 @@ pub(super) struct Errors {
     pub(super) rate: f64,
     /// Standard deviation of the random errors: relative for the scale, and an angle in radians.
     pub(super) noise: f64,
-    /// Whether each step is measured in meters, so that scale errors do not accumulate.
+    /// Whether each step is measured in meters, which prevents scale errors from accumulating.
     pub(super) is_metric: bool,
     pub(super) seed: u64,
 }
@@ -79,14 +79,14 @@ fn step(length: f64, left_rad: f64) -> RigidTransform {
     )
 }
 
-/// Returns the left turn of each step, radians: around a block, from the middle of one of its long
-/// sides.
+/// Returns the left turn at each step, radians: around a block, starting in the middle of a long
+/// side.
 fn turns(num_steps: usize) -> Vec<f64> {
     let half = num_steps / 2;
     let corner = (num_steps / 16).clamp(1, CORNER);
     let straight = half - 2 * corner;
     let long = (straight as f64 * ASPECT / (1.0 + ASPECT)).round() as usize;
-    // Two halves, equal but for a half-turn, lead back to the start.
+    // Two halves, equal up to a rotation by 180°, return to the start.
     let mut around = vec![0.0; long];
     around.extend(vec![FRAC_PI_2 / corner as f64; corner]);
     around.extend(vec![0.0; straight - long]);

@@ -1,5 +1,5 @@
-//! `scale-drift`: a drive around a block with one camera and drifting scale, and the effect of loop
-//! closure.
+//! `scale-drift`: a drive around a block with one camera, whose scale drifts, and the effect of
+//! loop closure.
 
 mod drive;
 mod model;

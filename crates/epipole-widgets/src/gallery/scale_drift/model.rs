@@ -1,4 +1,4 @@
-//! A drive around a block: its scale drift, the distance traveled, and its loop closure.
+//! A drive around a block: scale drift, distance traveled, and loop closure.
 
 use super::drive::{self, Drive, Errors};
 use super::question::{Answer, Judged, Kind, Question};
@@ -48,9 +48,9 @@ const FEWEST: usize = 2;
 /// The model of `scale-drift`.
 pub(crate) struct ScaleDrift {
     settings: Settings,
-    /// Number of steps that the reader has gone back to; `None` for the whole drive, however long.
+    /// Number of steps that the reader has moved back to; `None` for the whole drive.
     stop: Option<usize>,
-    /// The whole drive, regardless of the steps traveled.
+    /// Whole drive, regardless of the steps traveled.
     pub(super) drive: Drive,
     /// Odometry's estimate of the path traveled so far.
     pub(super) before: Judged,
@@ -58,13 +58,13 @@ pub(crate) struct ScaleDrift {
 }
 
 impl ScaleDrift {
-    /// Returns the path after loop closure; while the question is pending, that of the last drive.
+    /// Returns the path after loop closure; while the job is pending, that of the last drive.
     pub(super) fn after(&self) -> Option<&Judged> {
         let answer = self.asked.answer().filter(|_| self.is_home())?;
         answer.closed.as_ref().filter(|_| self.kind().is_some())
     }
 
-    /// Returns the measured scale of the start seen again on return, relative to the first visit.
+    /// Returns the measured scale of the start when revisited, relative to the first visit.
     pub(super) fn seen(&self) -> Option<f64> {
         let answer = self.asked.answer().filter(|_| self.is_home());
         answer.and_then(|answer| answer.seen)
@@ -109,7 +109,7 @@ impl ScaleDrift {
         [None, Some(Kind::Rigid), Some(Kind::Similarity)][self.settings.chosen(&CLOSURE)]
     }
 
-    /// Returns the trajectory error of the closed path, once it belongs to the current state.
+    /// Returns the trajectory error of the closed path, if it belongs to the current state.
     fn error_after(&self) -> Option<f64> {
         self.after().filter(|_| !self.asked.is_waiting())?.error
     }
@@ -164,7 +164,7 @@ impl Declared for ScaleDrift {
 
 impl Model for ScaleDrift {
     fn controls(&self) -> Vec<Control> {
-        // A rig that measures the scale has no scale drift.
+        // A rig that measures the scale does not drift in scale.
         let drifts = !self.is_metric();
         (self.settings).controls_enabled(|id| id != DRIFT.id || drifts)
     }

@@ -1,5 +1,5 @@
-//! Trajectory error and loop closure. Pose graph optimization and alignment are too much code for
-//! the page's own module, so a worker runs them.
+//! Trajectory error and loop closure. A worker computes them, since pose graph optimization and
+//! alignment are too much code for the page's module.
 
 use super::drive::{Drive, Errors, STEPS, centers};
 use crate::contract::{Problem, Progress};
@@ -14,9 +14,9 @@ use epipole::sfm::{
 use nalgebra::{Point3, Similarity3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Number of points at the start that both visits reconstruct.
+/// Number of points near the start that are reconstructed on both visits.
 const NUM_POINTS: usize = 100;
-/// Weight of the loop edge relative to a step; it is measured from many points at once.
+/// Weight of the loop edge relative to a step; it is high, as it is measured from many points.
 const WEIGHT: f64 = 1e4;
 
 /// Degrees of freedom of loop closure.
@@ -28,7 +28,7 @@ pub(super) enum Kind {
     Similarity,
 }
 
-/// Input of the computation.
+/// Input of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
     pub(super) num_steps: usize,
@@ -49,19 +49,19 @@ pub(super) struct Judged {
     pub(super) error: Option<f64>,
 }
 
-/// Result of the computation.
+/// Result of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Answer {
     /// Trajectory error before loop closure, in true steps.
     pub(super) error: Option<f64>,
-    /// Measured scale of the start seen again on return; `None` before the return.
+    /// Measured scale of the start when revisited; `None` before the return.
     pub(super) seen: Option<f64>,
     /// Path after loop closure.
     pub(super) closed: Option<Judged>,
 }
 
 impl Judged {
-    /// Returns the distance between the first and the last position, in first steps.
+    /// Returns the distance between the first and the last position, in units of the first step.
     pub(super) fn gap(&self) -> f64 {
         let ends = (self.poses.first(), self.poses.last());
         let (Some(first), Some(last)) = ends else {
@@ -75,7 +75,7 @@ impl Judged {
         self.scale.last().copied().unwrap_or(1.0)
     }
 
-    /// Returns the largest relative error of the scale.
+    /// Returns the maximum relative error of the scale.
     pub(super) fn worst_scale(&self) -> f64 {
         let off = self.scale.iter().map(|scale| (scale - 1.0).abs());
         off.fold(0.0, f64::max)
@@ -140,15 +140,15 @@ impl question::Question for Question {
 }
 
 /// Returns the root mean square distance from the true positions after the best similarity
-/// alignment, in true steps; `None` while the path is a straight line, which leaves the alignment's
-/// rotation open.
+/// alignment, in true steps; `None` while the path is a straight line, for which the rotation of
+/// the alignment is undetermined.
 fn trajectory_error(path: &[RigidTransform], truth: &[Point3<f64>]) -> Option<f64> {
     let judged = absolute_trajectory_error(&centers(path), truth, AlignmentKind::Similarity);
     judged.ok().map(|(statistics, _)| statistics.rmse)
 }
 
-/// Aligns the points reconstructed on return with those reconstructed at the start, each visit in
-/// its own unit.
+/// Aligns the points reconstructed on return with those reconstructed at the start, each in its own
+/// scale.
 fn recognize(drive: &Drive, errors: &Errors) -> Result<Similarity3<f64>, Error> {
     let mut random = Random::new(errors.seed ^ 0x5eed);
     let (mut then, mut now) = (Vec::new(), Vec::new());
@@ -258,7 +258,7 @@ mod tests {
         assert!(similar.worst_scale() < 1e-3 && similar.gap() < 1e-3);
         // The ends meet, but the scale error of the last frame remains.
         assert!(rigid.gap() < 0.05 && rigid.worst_scale() > 1.2);
-        // Rigid edges keep the lengths of their steps.
+        // Rigid edges preserve the lengths of the steps.
         let last_step =
             (rigid.poses[80].translation.vector - rigid.poses[79].translation.vector).norm();
         assert!(last_step > 2.0, "{last_step}");

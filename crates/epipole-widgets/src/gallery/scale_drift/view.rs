@@ -1,4 +1,4 @@
-//! The block from above with the three paths around it, and beside it the scale of each frame.
+//! A top view of the block with three paths, and beside it the scale of each frame.
 
 mod map;
 mod style;
@@ -12,11 +12,11 @@ use crate::kit::legend::{self, Entry, Swatch};
 use crate::kit::plot::{self, Ruler, decade};
 use crate::theme::Role;
 
-/// The plot shows at least scales from 1/2 to this.
+/// Scale up to which the plot's axis extends at least, starting from 1/2.
 const LEAST: f64 = 2.0;
-/// Space above and below the curves, in powers of ten.
+/// Margin above and below the curves, in powers of ten.
 const MARGIN: f64 = 0.06;
-/// Between the panels and the legend.
+/// Gap between the panels and the legend, CSS pixels.
 const LEGEND_GAP: f64 = 4.0;
 
 /// Draws [`ScaleDrift`].
@@ -29,10 +29,10 @@ const LEGEND: [Entry; 3] = [
     (Swatch::Line(AFTER), "loop closed"),
 ];
 
-/// The axes of the plot: frames, and the scale in powers of ten, where an even drift is a straight
-/// line.
+/// Returns the axes of the plot: frames, and the scale in powers of ten, in which uniform drift is
+/// a straight line.
 fn rulers(model: &ScaleDrift) -> [Ruler; 2] {
-    // All of the drive, so that the axes stay while the camera moves.
+    // The whole drive, so that the axes do not change while the camera moves.
     let scales = model.drive.scale.iter();
     let closed = model.after().into_iter().flat_map(|after| &after.scale);
     let least = decade(LEAST);

@@ -39,7 +39,7 @@ fn capital(text: &str) -> String {
 impl Words for ScaleDrift {
     fn readouts(&self) -> Vec<Readout> {
         let before = &self.before;
-        // Readouts without a value keep their place.
+        // Readouts without a value keep their position.
         let missing = self.asked.missing();
         let closed =
             |say: &dyn Fn(&Judged) -> String| self.after().map_or_else(|| missing.to_owned(), say);

@@ -1,4 +1,4 @@
-//! `scale-space`: a photograph at increasing blur, and the sizes of the things in it.
+//! `scale-space`: a photograph at increasing blur, and the sizes of its blobs.
 
 mod model;
 mod question;

@@ -78,7 +78,7 @@ impl ScaleSpace {
             if !(same && here >= left && here > right) {
                 return None;
             }
-            // Fits a parabola through the three over the logarithm of the blur.
+            // Fits a parabola to the three responses over the logarithm of the blur.
             let offset = 0.5 * (left - right) / (left - 2.0 * here + right);
             let step = libm::log(three[2].0 / three[1].0);
             let value = here - 0.25 * (left - right) * offset;

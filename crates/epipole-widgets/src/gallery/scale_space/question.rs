@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub(super) const NUM_OCTAVES: usize = 4;
 pub(super) const NUM_LAYERS: usize = 3;
 
-/// The rendered still life; there are no other inputs.
+/// Request for the rendered still life, without parameters.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question;
 
@@ -32,7 +32,7 @@ pub(super) struct Layer {
     pub(super) values: GrayImage32,
 }
 
-/// Result of the computation.
+/// Result of the job.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) photograph: Picture,

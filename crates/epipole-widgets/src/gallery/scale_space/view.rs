@@ -1,5 +1,5 @@
-//! The photograph, the difference of Gaussians at the current blur, all layers small, and the
-//! curve.
+//! The photograph, the difference of Gaussians at the current blur, thumbnails of all layers, and
+//! the curve.
 
 use super::model::ScaleSpace;
 use super::question::{Answer, Layer, NUM_LAYERS, NUM_OCTAVES};
@@ -25,7 +25,7 @@ const BETWEEN: f64 = 4.0;
 /// Draws [`ScaleSpace`].
 #[derive(Default)]
 pub(crate) struct ScaleSpaceView {
-    /// The current layer, and all layers small.
+    /// Map of the current layer, and thumbnails of all layers.
     large: Heat,
     small: Heat<COUNT>,
 }
@@ -123,7 +123,8 @@ impl View for ScaleSpaceView {
     }
 }
 
-/// Colors a layer, warm where positive, cool and striped where negative, at one in `every` samples.
+/// Colors a layer, warm for positive, cool and striped for negative values, at every `every`-th
+/// sample.
 fn colored(layer: &Layer, theme: Theme, every: u32) -> RgbImage {
     let colors = Signed::of(theme);
     // Stripes do not fit in small maps.
@@ -179,7 +180,7 @@ fn draw_answers(model: &ScaleSpace, answers: &[(f64, f64)], panel: &Panel, canva
         labels.keep_free(at, 6.0);
         let text = format!("extremum: σ = {} px", format_number(found.sigma_px, 1));
         let style = TextStyle::new(Role::Ink, SMALL).cased();
-        // The curve stays on one side of zero there.
+        // The curve has the same sign around its extremum.
         let away = if found.value < 0.0 { -12.0 } else { 12.0 };
         labels.draw(
             canvas,

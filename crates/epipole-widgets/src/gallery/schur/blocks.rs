@@ -4,7 +4,7 @@
 pub(super) const PER_CAMERA: usize = 6;
 pub(super) const PER_POINT: usize = 3;
 
-/// Cameras on a path past the points; neighboring cameras see a point.
+/// Cameras on a path past the points; each point is seen by neighboring cameras.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blocks {
     pub(super) num_cameras: usize,
@@ -16,7 +16,7 @@ impl Blocks {
     /// * `num_views`: number of cameras that see each point, at most `num_cameras`
     pub(super) fn new(num_cameras: usize, num_points: usize, num_views: usize) -> Self {
         let num_views = num_views.min(num_cameras);
-        // The first camera that sees a point advances along the path with the point.
+        // The first camera that sees a point advances along the path with the point's index.
         let last_first = num_cameras - num_views;
         let first = |point: usize| (point * (last_first + 1)) / num_points.max(1);
         let seen = |point: usize| (first(point)..first(point) + num_views).collect();
@@ -45,8 +45,8 @@ impl Blocks {
         entries as f64 / (all * all).max(1) as f64
     }
 
-    /// Returns whether two cameras are coupled after elimination of the points: they are equal or
-    /// see a common point.
+    /// Returns whether two cameras are coupled after elimination of the points: they are the same
+    /// or see a common point.
     pub(super) fn are_coupled(&self, one: usize, other: usize) -> bool {
         let both = |seen: &Vec<usize>| seen.contains(&one) && seen.contains(&other);
         one == other || self.seen_by.iter().any(both)
@@ -70,8 +70,7 @@ impl Blocks {
         let cube = |size: usize| (size as f64) * (size as f64) * (size as f64) / 6.0;
         let [cameras, points] = self.unknowns();
         let point = |seen: &Vec<usize>| {
-            // B P⁻¹ for the cameras that see it, then half of its product with Bᵀ, which is
-            // symmetric.
+            // B P⁻¹ for the cameras that see it, then half of its symmetric product with Bᵀ.
             let rows = (PER_CAMERA * seen.len()) as f64;
             let inverse = (PER_POINT * PER_POINT * PER_POINT) as f64;
             inverse
@@ -82,7 +81,7 @@ impl Blocks {
         [cube(cameras + points), eliminated + cube(cameras)]
     }
 
-    /// Returns the factor by which eliminating the points first reduces the work.
+    /// Returns the factor by which eliminating the points first reduces the cost.
     pub(super) fn saving(&self) -> f64 {
         let [whole, eliminated] = self.multiplications();
         whole / eliminated
@@ -94,7 +93,7 @@ mod tests {
     use super::*;
     use nalgebra::DMatrix;
 
-    /// Returns `JᵀJ` of random observations with this pattern.
+    /// Returns `JᵀJ` for random observations with this pattern.
     fn normal_matrix(blocks: &Blocks) -> DMatrix<f64> {
         let [cameras, points] = blocks.unknowns();
         let mut random = epipole::math::random::Random::new(3);

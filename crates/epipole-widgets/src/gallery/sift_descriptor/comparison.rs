@@ -13,9 +13,10 @@ use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
 use serde::{Deserialize, Serialize};
 use std::sync::OnceLock;
 
-/// Number of other keypoints to compare with: the strongest features.
+/// Number of other keypoints for comparison: the strongest features.
 const NUM_OTHERS: usize = 200;
-/// Minimum distance of these from the keypoint, pixels; nearer windows overlap too much.
+/// Minimum distance of these from the keypoint, pixels, since windows of nearer ones overlap too
+/// much.
 const OTHERS_BEYOND_PX: f64 = 12.0;
 /// Half size of the shown window, pixels.
 pub(super) const SHOWN_PX: u32 = 48;
@@ -36,7 +37,7 @@ pub(super) struct Subject {
 /// A window of a photograph and its SIFT descriptor.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Look {
-    /// Gray levels around the keypoint, row by row: a square.
+    /// Gray levels of a square around the keypoint, row by row.
     levels: Vec<u8>,
     /// Orientation assigned by SIFT.
     pub(super) angle_rad: f64,
@@ -57,7 +58,7 @@ pub(super) struct Distance {
 /// Both windows, and the distances of a raw patch, of a normalized patch and of SIFT's descriptor.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Comparison {
-    /// Before and after.
+    /// Windows before and after the change.
     pub(super) looks: [Look; 2],
     pub(super) distances: [Distance; 3],
 }
@@ -126,8 +127,7 @@ impl Comparison {
 
     /// Compares the photograph before and after its change.
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(super) fn of(subject: &Subject, progress: Progress<'_>) -> Result<Self, Problem> {
         let known = Known::find(&mut |share| progress(0.9 * share))?;
         let scale_px = match subject.scales {

@@ -48,8 +48,7 @@ pub(crate) struct SiftDescriptor {
 impl SiftDescriptor {
     /// Returns the photograph before its change.
     ///
-    /// # Errors
-    /// A sentence: the problem, or that the photograph is being rendered.
+    /// # Errors A message: the problem, or that the photograph is being rendered.
     pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
         match self.photograph.answer() {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),
@@ -57,7 +56,7 @@ impl SiftDescriptor {
         }
     }
 
-    /// Returns the last comparison, possibly of an earlier change.
+    /// Returns the last comparison, possibly for an earlier change.
     pub(super) fn compared(&self) -> Option<&Comparison> {
         match self.comparison.answer()? {
             Answer::Comparison(comparison) => Some(comparison),
@@ -65,12 +64,12 @@ impl SiftDescriptor {
         }
     }
 
-    /// Returns a number that changes with the windows.
+    /// Returns a version number of the windows.
     pub(super) fn version(&self) -> u64 {
         self.comparison.version()
     }
 
-    /// Returns the reason for having no comparison, as a sentence.
+    /// Returns the reason why there is no comparison, as a sentence.
     pub(super) fn problem(&self) -> Option<&str> {
         self.photograph.problem().or(self.comparison.problem())
     }
@@ -135,7 +134,7 @@ impl Model for SiftDescriptor {
         Ok(())
     }
 
-    /// Requests the photograph first, since the features take much longer.
+    /// Requests the photograph first, since features take much longer.
     fn asking(&mut self) -> Option<&mut dyn Asking> {
         Some(match self.photograph.is_waiting() {
             true => &mut self.photograph,
@@ -199,7 +198,7 @@ mod tests {
                 .iter()
                 .all(|d| d.original == 0.0 && d.other > 0.0)
         );
-        // A right angle maps pixels to pixels, up to the interpolation at the middle.
+        // A rotation by 90° maps pixels to pixels, up to interpolation at the center.
         model.update(&Event::set(&TURN, 90.0)).unwrap();
         settle(&mut model);
         let turned = model.compared().unwrap();

@@ -10,12 +10,12 @@ use epipole::imaging::{Border, GrayImage32, sample_bilinear};
 pub(super) const SIGMA_PX: f64 = 3.2;
 /// Side of a raw patch, samples.
 const SAMPLES: usize = 16;
-/// Spacing of its samples, pixels, so that it covers the descriptor's window.
+/// Spacing of its samples, pixels, so that they cover the descriptor's window.
 const SPACING_PX: f64 = 12.0 * SIGMA_PX / SAMPLES as f64;
 /// Norm of a byte descriptor.
 const UNIT: f64 = 512.0;
 
-/// Returns the SIFT options of all photographs here.
+/// Returns the SIFT options of all photographs in this figure.
 fn options() -> SiftOptions {
     SiftOptions::default()
         .with_upsample(false)
@@ -74,8 +74,8 @@ impl Prints {
         })
     }
 
-    /// Converts a descriptor's distance to its own unit: gray levels per sample, or for vectors of
-    /// norm 1.
+    /// Converts a descriptor's distance to its own unit: gray levels per sample, or distance of
+    /// unit vectors.
     pub(super) fn in_units(way: usize, distance: f64) -> f64 {
         match way {
             0 => distance * 255.0 / SAMPLES as f64,

@@ -7,7 +7,7 @@ use crate::kit::picture::Picture;
 use crate::kit::question;
 use serde::{Deserialize, Serialize};
 
-/// Requested computation on the rendered still life.
+/// Requested job on the rendered still life.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Question {
     /// The photograph itself.
@@ -16,7 +16,7 @@ pub(super) enum Question {
     Comparison(Subject),
 }
 
-/// Result of the computation.
+/// Result of the job.
 #[derive(Serialize, Deserialize)]
 pub(super) enum Answer {
     Photograph(Picture),

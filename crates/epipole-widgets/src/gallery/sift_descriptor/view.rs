@@ -14,10 +14,11 @@ use crate::kit::patch::{self, Spot};
 use crate::kit::question::Question as _;
 use crate::theme::Role;
 
-/// Largest ratio that a bar shows, and the ratio up to which a match is accepted.
+/// Ratio at the end of the bars, and maximum ratio of an accepted match.
 const MOST: f64 = 1.25;
 const BELIEVED: f64 = 0.8;
-/// Entry drawn at full length. Entries of a descriptor of norm 512 are clamped at 0.2 · 512.
+/// Histogram entry drawn at full length. Entries of a descriptor of norm 512 are clamped at 0.2 ·
+/// 512.
 const LONGEST: f64 = 0.25 * 512.0;
 const TITLES: [[&[&str]; 2]; 2] = [
     [&["Before"], &["Its descriptor", "Descriptor"]],

@@ -1,4 +1,4 @@
-//! `stereo-slider`: depth from disparity, and the depth error of a pixel of error.
+//! `stereo-slider`: depth from disparity, and the depth error caused by a pixel of error.
 
 mod model;
 mod rig;

@@ -22,8 +22,8 @@ const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
 /// Range of the ball's position to the side of the left camera's axis, meters.
 const SIDE_RANGE_M: [f64; 2] = [-0.8, 0.8];
-/// Position along the row of cameras and away from it, meters. With the default rig the ball is
-/// initially in columns 410 and 380.
+/// Position along the baseline and away from it, meters. With the default rig the ball is initially
+/// in columns 410 and 380.
 const BALL: Probe = Probe::new("object", "top", "Ball")
     .on_plan([SIDE_RANGE_M, DEPTH_RANGE_M])
     .digits(3)
@@ -54,7 +54,7 @@ impl StereoSlider {
         self.ball.put(x_m, z_m);
     }
 
-    /// Returns whether the sliders are untouched and the measurement passes `check`.
+    /// Returns whether the sliders are unchanged and the measurement passes `check`.
     fn with_the_rig_as_it_is(&self, check: impl Fn(Measured) -> bool) -> bool {
         let rig = self.rig();
         rig.baseline_m == BASELINE.default

@@ -1,4 +1,4 @@
-//! A rectified pair of cameras before the long table, and its measurement of the ball.
+//! A rectified pair of cameras in front of the long table, and its measurement of the ball.
 
 use crate::kit::scenes::{self, PHOTO_HEIGHT, PHOTO_WIDTH};
 use epipole::Error;
@@ -32,7 +32,7 @@ pub(super) struct Measured {
 pub(super) enum Sight {
     /// Visible.
     Clear,
-    /// Hidden by this.
+    /// Hidden by the named object.
     Hidden(&'static str),
     /// Outside of the picture.
     Outside,
@@ -60,7 +60,7 @@ impl Rig {
         Ok([left.project(&ball)?, right.project(&ball)?])
     }
 
-    /// Computes disparity and depth from the two pixels alone; `None` without a baseline.
+    /// Computes disparity and depth from the two pixels only; `None` without a baseline.
     pub(super) fn measured(&self) -> Option<Measured> {
         let [left, right] = self.pixels().ok()?;
         let disparity_px = left.x - right.x;

@@ -1,5 +1,5 @@
-//! Both photographs with the match magnified in a corner, depth over disparity below them, and the
-//! view from above beside them.
+//! Both photographs with a magnified match, depth over disparity below them, and a top view beside
+//! them.
 
 mod from_above;
 mod magnifier;
@@ -22,13 +22,13 @@ use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
-/// Height of the view from above on a phone, CSS pixels.
+/// Height of the top view on a phone, CSS pixels.
 const LOW: f64 = 186.0;
-/// Disparities and depths that the curve is drawn for.
+/// Ends of the axes of disparity and depth.
 const MOST_PX: f64 = 120.0;
 const MOST_M: f64 = 11.0;
 
-/// The two photographs, kept between drawings.
+/// Draws [`StereoSlider`], with both photographs cached.
 pub(crate) struct StereoSliderView {
     photos: [Photo; 2],
 }
@@ -53,7 +53,7 @@ impl View for StereoSliderView {
     fn layout(&self, _model: &StereoSlider, width: f64) -> Layout {
         let mut grid = Grid::new(width);
         let photo = |id, rect| Panel::photograph(id, rect, PHOTO_SIZE).clickable();
-        // Side by side on every page: that both are on the same row is the point.
+        // Side by side even on a phone, to show that both matches are in the same row.
         if grid::is_narrow(width) {
             let [left, right] = grid.row([PHOTO_ASPECT; 2], f64::INFINITY);
             let [top] = grid.shares([1.0], LOW);
@@ -106,7 +106,7 @@ impl View for StereoSliderView {
 }
 
 impl StereoSliderView {
-    /// The next slice of work on either photograph.
+    /// Does the next slice of work on either photograph.
     fn slice(&mut self, model: &StereoSlider, work: Slice) -> bool {
         let rig = model.rig();
         let (Ok(cameras), Ok(scene)) = (rig.cameras(), scenes::long_table((rig.x_m, rig.z_m)))
@@ -147,7 +147,7 @@ impl StereoSliderView {
                 Err(error) => return refuse(canvas, panels, &error),
             }
         }
-        // One row through both photographs, and through the gap between them.
+        // One row through both photographs and the gap between them.
         let rect = panels[0].rect;
         let row = panels[0].canvas_from_world((0.0, pixels[0].y)).1;
         let both = Rect::new(rect.x, rect.y, panels[1].rect.right() - rect.x, rect.height);
@@ -171,7 +171,7 @@ impl StereoSliderView {
                 }
             });
         }
-        // Of the right photograph, which is the last.
+        // Magnifies the right photograph, which is the last.
         if let Some(magnifier) = magnifier.filter(|_| rig.measured().is_some()) {
             let place = panels[1].place_of(&pixels[1]);
             magnifier.draw(panels[1].rect, place, canvas);
@@ -192,7 +192,7 @@ fn title(index: usize, sight: Sight, column_px: f64, width: f64) -> String {
     }
 }
 
-/// Draws the error in place of the photographs.
+/// Draws the error message in place of the photographs.
 fn refuse(canvas: &mut Canvas, panels: [&Panel; 2], error: &epipole::Error) {
     for panel in panels {
         canvas.panel(panel.rect);
@@ -254,7 +254,7 @@ fn draw_curve(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
         }
     });
     let product = rig.focal_px * rig.baseline_m;
-    // Evenly along the curve, not along an axis: it is as steep as it is flat.
+    // Evenly spaced along the curve, as it has both steep and flat parts.
     let [nearest, farthest] = [0.5 * DEPTH_RANGE_M[0], MOST_M];
     let places = (0..=96).map(|step| {
         let share = f64::from(step) / 96.0;

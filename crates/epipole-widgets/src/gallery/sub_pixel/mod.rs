@@ -1,4 +1,4 @@
-//! `sub-pixel`: a corner between the pixels, from the gradients around it.
+//! `sub-pixel`: a corner at subpixel accuracy, from the gradients around it.
 
 mod model;
 mod patch;

@@ -1,4 +1,4 @@
-//! A corner, where the search for it starts, and the steps of its refinement.
+//! A corner, the initial position of its refinement, and the iterations.
 
 use super::patch::{CORNER, SIZE, picture};
 use crate::contract::{
@@ -30,7 +30,7 @@ const START: Probe = Probe::new("start", "patch", "Start")
     .at(19.0, 11.0);
 /// Maximum number of steps.
 const MAX_STEPS: usize = 20;
-/// Length of a step after which the corner stays, pixels.
+/// Step length below which the refinement has converged, pixels.
 const STAYS_PX: f64 = 1e-3;
 
 /// The model of `sub-pixel`.
@@ -42,14 +42,14 @@ pub(crate) struct SubPixel {
 /// The picture and the steps.
 pub(super) struct State {
     pub(super) image: GrayImage32,
-    /// The start, and the place after each step.
+    /// Initial position, and the position after each step.
     pub(super) path: Vec<Point2<f64>>,
-    /// Whether the last place is a corner.
+    /// Whether the refinement has converged to a corner.
     is_found: bool,
 }
 
 impl State {
-    /// Returns the corner; `None` if the window holds none.
+    /// Returns the corner; `None` if the window contains none.
     pub(super) fn corner(&self) -> Option<Point2<f64>> {
         self.path.last().copied().filter(|_| self.is_found)
     }

@@ -1,4 +1,4 @@
-//! A picture of a corner at a known place, and its gradients.
+//! A picture of a corner at a known position, and its gradients.
 
 use epipole::imaging::GrayImage32;
 use epipole::math::random::Random;
@@ -7,11 +7,11 @@ use nalgebra::{Point2, Vector2};
 
 /// Size of the picture, pixels.
 pub(super) const SIZE: (u32, u32) = (33, 25);
-/// The corner, pixels.
+/// Position of the corner, pixels.
 pub(super) const CORNER: Point2<f64> = Point2::new(16.31, 12.22);
-/// Gray levels of the wedges and of the ground.
+/// Gray levels of the wedges and of the background.
 const LEVELS: [f64; 2] = [60.0, 210.0];
-/// Samples of a pixel along each side.
+/// Number of samples per pixel along each side.
 const NUM_SAMPLES: u32 = 6;
 /// Direction of the middle of one wedge, radians.
 const TOWARD_RAD: f64 = 0.55;
@@ -22,7 +22,7 @@ const TOWARD_RAD: f64 = 0.55;
 /// * `noise`: standard deviation, gray levels
 pub(super) fn picture(opening_deg: f64, noise: f64) -> GrayImage32 {
     let half_rad = opening_deg.to_radians() / 2.0;
-    // Normals of the edges, out of that wedge.
+    // Outward normals of the edges of that wedge.
     let normals = [-1.0, 1.0].map(|side| {
         let (sin, cos) = libm::sincos(TOWARD_RAD + side * half_rad);
         Vector2::new(-side * sin, side * cos)
@@ -60,7 +60,7 @@ pub(super) fn gradient(image: &GrayImage32, (u, v): (u32, u32)) -> Vector2<f64> 
     Vector2::new(across, down) / 2.0
 }
 
-/// Returns the picture enlarged, so that its pixels are squares.
+/// Returns the picture enlarged, with its pixels as squares.
 pub(super) fn enlarged(image: &GrayImage32, times: u32) -> RgbImage {
     let (width, height) = image.dimensions();
     RgbImage::from_fn(width * times, height * times, |u, v| {
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!([level(30, 20), level(2, 4)], [60.0; 2]);
         assert_eq!([level(4, 22), level(28, 2)], [210.0; 2]);
         assert_eq!(gradient(&image, (2, 4)), Vector2::zeros());
-        // Straight below the corner it grows lighter to the left.
+        // Directly below the corner, brightness increases to the left.
         let edge = (0..SIZE.0).map(|u| gradient(&image, (u, 20)));
         assert!(edge.min_by(|a, b| a.x.total_cmp(&b.x)).unwrap().x < -0.1);
     }

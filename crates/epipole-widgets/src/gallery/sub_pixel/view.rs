@@ -1,4 +1,4 @@
-//! The pixels with the window and the line of each gradient, and beside it the steps, enlarged.
+//! The pixels with the window and the line of each gradient, and beside it a close-up of the steps.
 
 use super::model::{State, SubPixel};
 use super::patch::{CORNER, SIZE, enlarged, gradient};
@@ -11,11 +11,11 @@ use crate::kit::rectified;
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2};
 
-/// Size of a pixel in the enlarged picture.
+/// Pixels per side of a pixel in the enlarged picture.
 const TIMES: u32 = 8;
-/// Smallest gradient with a line, gray values a pixel, in [0, 1].
+/// Minimum gradient drawn as a line, gray values in [0, 1] per pixel.
 const FAINTEST: f64 = 0.14;
-/// Largest distance from the true corner in the close-up, pixels.
+/// Half size of the close-up around the true corner, pixels.
 const REACH_PX: f64 = 1.5;
 /// Between the panels and the legend, CSS pixels.
 const LEGEND_GAP: f64 = 4.0;
@@ -87,7 +87,7 @@ impl View for SubPixelView {
     }
 }
 
-/// Draws for each pixel of the window the line on which its gradient wants the corner.
+/// Draws for each pixel of the window the line on which its gradient constrains the corner.
 fn draw_lines(
     state: &State,
     (half, center): (usize, Point2<f64>),

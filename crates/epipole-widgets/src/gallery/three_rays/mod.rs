@@ -1,4 +1,4 @@
-//! `three-rays`: three rays that nearly meet, and the singular values of their equations.
+//! `three-rays`: three rays that nearly intersect, and the singular values of their equations.
 
 mod model;
 mod view;

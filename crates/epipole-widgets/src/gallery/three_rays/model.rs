@@ -1,5 +1,4 @@
-//! The columns in which three cameras side by side see one point, and the place nearest to the
-//! rays.
+//! The columns of one point in three cameras side by side, and the point nearest to the rays.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Toggle,
@@ -11,7 +10,7 @@ use nalgebra::{Matrix3, Point2, RowVector3, Vector2, Vector3};
 pub(super) const NUM_CAMERAS: usize = 3;
 /// Centers of the first two cameras along the baseline, meters.
 const CENTERS_M: [f64; 2] = [0.0, 0.4];
-/// Columns of a photograph, its middle and the focal length, pixels.
+/// Width of a photograph, its middle column and the focal length, pixels.
 pub(super) const WIDTH_PX: f64 = 640.0;
 pub(super) const MIDDLE_PX: f64 = 320.0;
 pub(super) const FOCAL_PX: f64 = 500.0;
@@ -49,21 +48,21 @@ pub(crate) struct ThreeRays {
 /// The singular value decomposition of the rays' equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Meeting {
-    /// Largest first.
+    /// Singular values, largest first.
     pub(super) sigma: [f64; NUM_CAMERAS],
-    /// The last column of V, of length 1.
+    /// The last column of V, a unit vector.
     h: Vector3<f64>,
 }
 
 impl Meeting {
-    /// Returns the place nearest to the rays, meters to the right and away; `None` at infinity.
+    /// Returns the point nearest to the rays, meters to the right and away; `None` at infinity.
     pub(super) fn place(&self) -> Option<Point2<f64>> {
         (self.h.z.abs() > 1e-9).then(|| Point2::new(self.h.x / self.h.z, self.h.y / self.h.z))
     }
 }
 
 impl ThreeRays {
-    /// Returns the number of cameras that are used.
+    /// Returns the number of cameras used.
     pub(super) fn num_used(&self) -> usize {
         NUM_CAMERAS - usize::from(!self.settings.flag(&THIRD))
     }
@@ -90,7 +89,7 @@ impl ThreeRays {
         MIDDLE_PX + FOCAL_PX * (POINT_M.x - self.centers_m()[camera]) / POINT_M.y
     }
 
-    /// Returns the equations X − m Z − B = 0 of the rays, one a row; 0 = 0 for an unused camera.
+    /// Returns the equations X − m Z − B = 0 of the rays, one per row; 0 = 0 for an unused camera.
     fn rows(&self) -> Matrix3<f64> {
         let (directions, centers_m) = (self.directions(), self.centers_m());
         let row = |camera: usize| match camera < self.num_used() {

@@ -1,5 +1,5 @@
-//! The cameras and their rays from above; beside it the rows of their photographs, and the singular
-//! values.
+//! Top view of the cameras and their rays; beside it the rows of their photographs, and the
+//! singular values.
 
 use super::model::{FOCAL_PX, MIDDLE_PX, NUM_CAMERAS, POINT_M, ROWS, ThreeRays, WIDTH_PX};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
@@ -14,10 +14,10 @@ use nalgebra::Point2;
 
 /// Distance of the drawn image planes from the centers, meters.
 const IMAGE_M: f64 = 0.3;
-/// Middle of the plan, and half of its depth, meters.
+/// Center of the top view, and half of its depth, meters.
 const MIDDLE_M: (f64, f64) = (0.4, 1.05);
 const HALF_DEPTH_M: f64 = 1.5;
-/// Height of the row of a photograph, CSS pixels.
+/// Height of a photograph's row, CSS pixels.
 const ROW: f64 = 20.0;
 const FOUND: Role = Role::Ink;
 

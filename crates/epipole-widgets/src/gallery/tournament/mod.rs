@@ -1,4 +1,4 @@
-//! `tournament`: six estimators, over many seeded runs at every outlier ratio.
+//! `tournament`: six estimators in many seeded runs at every outlier ratio.
 
 mod model;
 mod question;

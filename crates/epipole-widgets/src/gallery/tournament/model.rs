@@ -50,7 +50,7 @@ impl Tournament {
         }
     }
 
-    /// Returns the index and the value of the outlier ratio that the readouts are for.
+    /// Returns the index and the value of the outlier ratio shown in the readouts.
     pub(super) fn ratio(&self) -> (usize, f64) {
         let index = (10.0 * self.settings.number(&RATIO)).round() as usize;
         (index, outlier_ratio(index))
@@ -77,7 +77,7 @@ impl Tournament {
         self.asked.ask(self.question());
     }
 
-    /// Returns the success rates of two rivals at the selected ratio, once all runs are in.
+    /// Returns the success rates of two rivals at the selected ratio, once all runs are complete.
     fn final_shares(&self, rivals: [usize; 2]) -> Option<[f64; 2]> {
         let (ratio, _) = self.ratio();
         let [one, other] = rivals.map(|rival| self.share(rival, ratio));

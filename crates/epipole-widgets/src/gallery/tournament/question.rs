@@ -7,19 +7,20 @@ use serde::{Deserialize, Serialize};
 
 /// Number of outlier ratios: 0, 0.1, 0.2 …
 pub(super) const NUM_RATIOS: usize = 9;
-/// Number of runs per batch, so that curves grow and an interrupted tournament keeps its results.
+/// Number of runs per batch: small, so that curves grow and an interrupted tournament keeps its
+/// results.
 pub(super) const RUNS_AT_ONCE: usize = 20;
 /// Number of batches.
 pub(super) const NUM_BATCHES: usize = 10;
-/// Distance between the run seeds of two reader seeds, so that they share no run.
+/// Distance between the run seeds of consecutive seeds of the reader, so that they share no run.
 const APART: u64 = 10_000;
 
 /// Estimated model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Subject {
-    /// A line to points.
+    /// A line from points.
     Line,
-    /// F to matches.
+    /// F from matches.
     Fundamental,
 }
 

@@ -1,4 +1,4 @@
-//! The rivals on a line and on F: the error of each on the same data.
+//! Rivals that estimate a line or F, and their errors on the same data.
 
 use crate::kit::line_points::{angle_between_deg, scatter};
 use crate::kit::matches::{MAX_USED, Match, Matches, distance_px};
@@ -17,7 +17,7 @@ use std::rc::Rc;
 
 /// Number of rivals.
 pub(super) const NUM_RIVALS: usize = 6;
-/// Names for permalinks and for readers, and whether their readouts are always shown.
+/// Names for permalinks and for readers, and whether their readouts are always visible.
 pub(super) const RIVALS: [(&str, &str, bool); NUM_RIVALS] = [
     ("least-squares", "Least squares", true),
     ("huber", "Huber", false),
@@ -26,9 +26,9 @@ pub(super) const RIVALS: [(&str, &str, bool); NUM_RIVALS] = [
     ("msac", "MSAC", false),
     ("msac-lo", "MSAC + LO", true),
 ];
-/// Largest angle from the hidden line that counts as a success, degrees.
+/// Maximum angle from the hidden line for a success, degrees.
 pub(super) const WITHIN_DEG: f64 = 2.0;
-/// Largest mean epipolar distance of held-out matches that counts as a success for F, pixels.
+/// Maximum mean epipolar distance of held-out matches for a success with F, pixels.
 pub(super) const WITHIN_PX: f64 = 2.0;
 /// Standard deviations of the points' distance from the line, and of a match's coordinates, pixels.
 const LINE_SIGMA_PX: f64 = 4.0;
@@ -166,7 +166,8 @@ mod tests {
     }
 
     /// Compares with the success rates of `tests/peers/tournament.py`, an independent NumPy
-    /// implementation on other points of the same distribution; they agree up to chance.
+    /// implementation with other points of the same distribution; they agree within statistical
+    /// error.
     #[test]
     fn shares_are_those_of_an_independent_tournament_in_numpy() {
         const NUM_RUNS: u32 = 200;

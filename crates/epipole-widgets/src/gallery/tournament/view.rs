@@ -25,7 +25,7 @@ fn rulers() -> [Ruler; 2] {
     [ratio.named("outliers among the data"), share]
 }
 
-/// Returns a rival's color, shape and stroke, which all differ between rivals.
+/// Returns a rival's color, shape and stroke, each unique.
 fn look(rival: usize) -> (Role, Shape, Stroke) {
     let (role, shape) = series(rival);
     (role, shape, Stroke::of_series(rival, 2.25))
@@ -44,7 +44,7 @@ impl View for TournamentView {
 
     fn layout(&self, _: &Tournament, width: f64) -> Layout {
         let mut grid = Grid::new(width);
-        // The legend is above the plot, since the progress of the runs would cover it below.
+        // The legend is above the plot, since the runs' progress would cover it below.
         grid.strip(legend::height(&entries(), width, plot::LEFT));
         let [cell] = grid.shares([1.0], (0.42 * width + 90.0).min(HEIGHT));
         let [x, y] = rulers();

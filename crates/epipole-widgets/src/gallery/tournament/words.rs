@@ -6,7 +6,7 @@ use super::rivals::{NUM_RIVALS, RIVALS, WITHIN_DEG, WITHIN_PX};
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::words::after;
 
-/// Returns the criterion for a success, in words.
+/// Describes the criterion for a success.
 pub(super) fn success(subject: Subject) -> String {
     match subject {
         Subject::Line => format!("within {WITHIN_DEG}° of the hidden line"),

@@ -1,4 +1,4 @@
-//! `track`: corners followed from frame to frame by Lucas and Kanade, with their true positions.
+//! `track`: corners tracked from frame to frame by Lucas-Kanade, with their true positions.
 
 mod model;
 mod question;

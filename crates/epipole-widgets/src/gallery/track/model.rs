@@ -1,4 +1,4 @@
-//! Frames of a video, the points followed through them, and the frame that is shown.
+//! Frames of a video, points tracked through them, and the current frame.
 
 use super::question::{Answer, MAX_STRIDE, Question, Sighting};
 use crate::contract::{
@@ -31,25 +31,25 @@ pub(crate) struct TrackFigure {
     pub(super) asked: Computation<Question>,
 }
 
-/// Points of one frame.
+/// Statistics of the points in one frame.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Tally {
     pub(super) num_followed: usize,
     pub(super) num_lost: usize,
     pub(super) num_wrong: usize,
-    /// Median distance from the true position of those that are visible, pixels.
+    /// Median distance of the visible points from their true positions, pixels.
     pub(super) median_px: Option<f64>,
 }
 
 impl Sighting {
-    /// Returns whether the point is not on its thing, or its thing is not visible.
+    /// Returns whether the point is off its object, or its object is not visible.
     pub(super) fn is_wrong(&self) -> bool {
         self.error_px.is_none_or(|error| error > WRONG_PX)
     }
 }
 
 impl TrackFigure {
-    /// Returns the answer to the current question; `None` while it is computed.
+    /// Returns the result for the current settings; `None` while it is computed.
     pub(super) fn answer(&self) -> Option<&Answer> {
         let is_waiting = self.asked.is_waiting();
         self.asked.answer().filter(|_| !is_waiting)
@@ -74,7 +74,7 @@ impl TrackFigure {
         self.timeline.place(self.last())
     }
 
-    /// Returns the index of the frame that is shown, among those used.
+    /// Returns the index of the current frame, among those used.
     pub(super) fn frame(&self) -> usize {
         self.timeline.frame(self.last())
     }

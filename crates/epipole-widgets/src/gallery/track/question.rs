@@ -1,4 +1,4 @@
-//! The job of `track`: renders the frames, finds corners in the first, and follows them.
+//! The job of `track`: renders the frames, detects corners in the first, and tracks them.
 
 use crate::contract::{Problem, Progress};
 use crate::kit::picture::Picture;
@@ -13,21 +13,21 @@ use epipole_scenes::Transfer;
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-/// Maximum number of corners, and their smallest distance, pixels.
+/// Maximum number of corners, and their minimum distance, pixels.
 const NUM_CORNERS: usize = 60;
 const APART_PX: f64 = 10.0;
-/// Longest stride over frames.
+/// Maximum stride over frames.
 pub(super) const MAX_STRIDE: usize = 8;
 
-/// Frames used, and how windows are followed.
+/// Frames used, and settings for tracking.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Question {
-    /// Every how many frames one is used.
+    /// Stride over the frames.
     pub(super) stride: usize,
     pub(super) num_levels: usize,
     /// Half of a window's side without its center, pixels.
     pub(super) half: usize,
-    /// Whether points are followed back, and dropped where they end elsewhere.
+    /// Whether points are tracked back, and dropped if they end elsewhere.
     pub(super) is_checked: bool,
 }
 
@@ -36,12 +36,12 @@ pub(super) struct Question {
 pub(super) struct Sighting {
     /// Column and row found.
     pub(super) place: (f64, f64),
-    /// Distance from the true position, pixels; `None` if the thing is hidden or out of the
+    /// Distance from the true position, pixels; `None` if the object is hidden or outside of the
     /// picture.
     pub(super) error_px: Option<f64>,
 }
 
-/// The frames used, and each point in all frames until it was lost.
+/// Frames used, and each point in all frames until it was lost.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Answer {
     pub(super) frames: Vec<Picture>,
@@ -124,8 +124,8 @@ fn sighting(place: &Point2<f64>, truth: Option<Point2<f64>>) -> Sighting {
     }
 }
 
-/// Returns the true position in a frame of what a pixel of the first frame shows; `None` if it is
-/// hidden or out of the picture.
+/// Returns the true position in a frame of the surface point at a pixel of the first frame; `None`
+/// if it is hidden or outside of the picture.
 fn truth(start: &Point2<f64>, frame: usize) -> Option<Point2<f64>> {
     let cameras = [0, frame].map(sequence::camera);
     let Transfer::Visible { pixel2, .. } = still_life().transfer(&cameras[0], &cameras[1], start)

@@ -14,7 +14,7 @@ use crate::theme::Role;
 const ASPECT: f64 = grid::aspect(SIZE);
 /// Number of earlier frames whose positions are drawn.
 const TAIL: usize = 6;
-/// Range of the errors, pixels.
+/// Minimum and maximum error of the axis, pixels.
 const LEAST_PX: f64 = 0.01;
 const MOST_PX: f64 = 60.0;
 const MEDIAN: Stroke = Stroke::solid(Role::Ink, 2.25);
@@ -86,7 +86,7 @@ impl View for TrackView {
     }
 }
 
-/// Draws a point with where it came from, if it is still followed.
+/// Draws a point with its recent path, if it is still tracked.
 fn draw_path(track: &[Sighting], frame: usize, panel: &Panel, canvas: &mut Canvas) {
     let Some(sighting) = track.get(frame) else {
         return;

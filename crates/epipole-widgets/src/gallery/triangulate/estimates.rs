@@ -23,14 +23,14 @@ pub(super) struct Estimates {
     pub(super) truth: Point3<f64>,
     /// Noisy projections of the point, pixels.
     pub(super) pixels: [Point2<f64>; 2],
-    /// Estimate by each of [`METHODS`], or why there is none.
+    /// Estimate by each of [`METHODS`], or the error.
     pub(super) points: [Result<Point3<f64>, Error>; 4],
-    /// Optimal estimates from repetitions with the same noise level.
+    /// Optimal estimates for repetitions with the same noise level.
     pub(super) repeats: Vec<Point3<f64>>,
-    /// Half axes of the one-sigma ellipsoid, longest first, in the world.
+    /// Semi-axes of the one-sigma ellipsoid, longest first, in the world.
     pub(super) axes: Option<[Vector3<f64>; 3]>,
     pub(super) angle_deg: f64,
-    /// Epipolar line in each photograph of the pixel in the other one.
+    /// In each photograph, the epipolar line of the pixel in the other one.
     pub(super) lines: Option<[Line2; 2]>,
     pub(super) curves: Curves,
 }
@@ -86,7 +86,7 @@ impl Estimates {
         (count > 0).then(|| (squares.sum::<f64>() / count as f64).sqrt())
     }
 
-    /// Returns the longest half axis of the one-sigma ellipsoid, meters.
+    /// Returns the longest semi-axis of the one-sigma ellipsoid, meters.
     pub(super) fn uncertainty_m(&self) -> Option<f64> {
         self.axes.map(|axes| axes[0].norm())
     }

@@ -1,4 +1,4 @@
-//! `triangulate`: a point from two noisy rays, by four methods, and its error.
+//! `triangulate`: a point from two noisy rays by four methods, and its error.
 
 mod estimates;
 mod model;

@@ -13,7 +13,7 @@ use std::cell::OnceCell;
 
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 480);
-/// Horizontal range of the point and the cameras, meters.
+/// Range of the point and the cameras along x, meters.
 pub(super) const ASIDE_M: [f64; 2] = [-1.2, 1.4];
 
 pub(super) const NOISE: Slider = Slider::new("noise", "Pixel noise σ")
@@ -75,7 +75,7 @@ impl Triangulate {
         [self.point.place(), self.second.place()]
     }
 
-    /// Returns the estimates, or why there are none.
+    /// Returns the estimates, or a message why there are none.
     pub(super) fn estimates(&self) -> Result<&Estimates, &str> {
         let estimates = self.estimates.get_or_init(|| self.compute());
         estimates.as_ref().map_err(String::as_str)
@@ -118,7 +118,7 @@ impl Declared for Triangulate {
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
-            // This viewpoint puts the orbit handle beside the region, not on it.
+            // From this viewpoint, the orbit handle is beside the region, not on it.
             orbit: Orbit::new(-62.0, 32.0),
             point: POINT,
             second: SECOND,
@@ -128,7 +128,7 @@ impl Declared for Triangulate {
 }
 
 impl Model for Triangulate {
-    /// The cameras, and the noisy pixel of the point in each.
+    /// Returns the cameras, and the noisy pixel of the point in each.
     fn data(&self) -> Data {
         let Ok(estimates) = self.estimates() else {
             return Data::new();
@@ -262,7 +262,7 @@ mod tests {
             };
             for method in 0..3 {
                 if let Some(other) = estimates.reprojection_px(method) {
-                    // Two steps of Lindström's iteration end this near to the minimum.
+                    // Two steps of Lindström's iteration end this close to the minimum.
                     assert!(optimal <= other * (1.0 + 1e-8), "{optimal} and {other}");
                     num_compared += 1;
                 }
@@ -292,7 +292,7 @@ mod tests {
         let found = model.estimates().unwrap();
         assert!(found.points.iter().all(Result::is_err) && found.axes.is_none());
         assert!(model.describe().contains("There is no point, since "));
-        // A camera on the point itself has no pose: the readouts stay, without numbers.
+        // A camera at the point itself has no pose: the readouts remain, without numbers.
         let usual: Vec<_> = Triangulate::new()
             .readouts()
             .into_iter()

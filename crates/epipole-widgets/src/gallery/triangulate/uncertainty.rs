@@ -1,5 +1,5 @@
-//! Uncertainty of a point: its region, and its growth along the rays over the angle and over the
-//! distance.
+//! Uncertainty of a point: its region, and the standard deviation along the rays over the angle and
+//! over the distance.
 
 use epipole::camera::{PosedCamera, look_at};
 use epipole::math::{Svd3, svd3};
@@ -12,13 +12,13 @@ pub(super) const ANGLES_DEG: [f64; 2] = [0.0, 90.0];
 pub(super) const DISTANCES: [f64; 2] = [-0.3, 2.0];
 const NUM_STEPS: usize = 120;
 
-/// One standard deviation along the rays, meters, over …
+/// One standard deviation along the rays, meters.
 pub(super) struct Curves {
-    /// … the angle between the rays, degrees, with camera 2 moved around the point.
+    /// Over the angle between the rays, degrees, with camera 2 moved around the point.
     pub(super) angle: Vec<(f64, f64)>,
-    /// … the distance of the point from camera 1, meters, with the point moved along that ray.
+    /// Over the distance of the point from camera 1, meters, with the point moved along that ray.
     pub(super) distance: Vec<(f64, f64)>,
-    /// … the same distance, as a multiple of its square that agrees at the far end.
+    /// Over the same distance, proportional to its square and equal at the far end.
     pub(super) square: Vec<(f64, f64)>,
 }
 
@@ -74,14 +74,14 @@ impl Curves {
     }
 }
 
-/// Half axes of the region of one standard deviation about a point, longest first, in the world.
+/// Returns the semi-axes of the one-sigma ellipsoid around a point, longest first, in the world.
 pub(super) fn axes_of(
     cameras: &[PosedCamera; 2],
     truth: &Point3<f64>,
     sigma_px: f64,
 ) -> Option<[Vector3<f64>; 3]> {
     let covariance: Matrix3<f64> = point_covariance(cameras, truth, sigma_px).ok()?;
-    // Of a symmetric matrix without negative eigenvalues these are its axes.
+    // For a symmetric matrix without negative eigenvalues these are its axes.
     let Svd3 {
         u, singular_values, ..
     } = svd3(&covariance);
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn far_away_it_is_what_a_pixel_of_disparity_costs() {
-        // √2 σ Z² / (f B)
+        // Expected: √2 σ Z² / (f B).
         let found = curves(Point3::new(0.4, 0.0, 0.0));
         let &(far_m, long_m) = found.distance.last().unwrap();
         let expected = std::f64::consts::SQRT_2 * far_m * far_m / (500.0 * 0.4);
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn equal_cameras_at_an_angle() {
-        // Two directions at the angle α leave σ r / (f √2 sin(α / 2)) along their bisector.
+        // Two directions at the angle α give σ r / (f √2 sin(α / 2)) along their bisector.
         let found = curves(Point3::new(2.0, 0.0, 2.0));
         for &(angle_deg, long_m) in &found.angle {
             let half = (angle_deg / 2.0).to_radians();

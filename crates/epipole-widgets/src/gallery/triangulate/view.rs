@@ -1,5 +1,6 @@
-//! Cameras and point from above; around the point, enlarged, the rays and all estimates; and beside
-//! it either how far each estimate misses the pixels, or how the uncertainty grows.
+//! Top view of cameras and point; an enlarged view around the point with the rays and all
+//! estimates; and beside it either the reprojection errors of each estimate, or the growth of the
+//! uncertainty.
 
 mod beside;
 mod region;

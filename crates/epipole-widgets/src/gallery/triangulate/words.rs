@@ -46,7 +46,7 @@ fn beside(show: Show, estimates: &Estimates) -> String {
 
 impl Words for Triangulate {
     fn readouts(&self) -> Vec<Readout> {
-        // Without estimates the readouts keep their place, without numbers.
+        // Without estimates the readouts keep their position, without numbers.
         let estimates = self.estimates().ok();
         let angle_deg = estimates.map(|estimates| estimates.angle_deg);
         let predicted = estimates.and_then(Estimates::uncertainty_m);

@@ -1,4 +1,4 @@
-//! `two-cameras`: two photographs of one point, seen from above, and the effect of a wrong match.
+//! `two-cameras`: two photographs of one point, in a top view, and the effect of a wrong match.
 
 mod model;
 mod view;

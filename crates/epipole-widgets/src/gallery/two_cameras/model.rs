@@ -1,4 +1,4 @@
-//! Two equal cameras side by side, two balls of equal appearance, and the intersection of two rays.
+//! Two identical cameras side by side, two identical balls, and the intersection of two rays.
 
 use crate::contract::{
     Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, Symbol,
@@ -10,7 +10,7 @@ use nalgebra::{Point2, Point3};
 
 pub(super) const FOCAL_PX: f64 = 500.0;
 pub(super) const SIZE: (u32, u32) = (640, 320);
-/// Principal point, pixels: round numbers, for readers who compute along.
+/// Principal point, pixels: round numbers, for readers who calculate along.
 pub(super) const MIDDLE_PX: (f64, f64) = (320.0, 160.0);
 /// Height of the balls' centers below the cameras, meters.
 const BELOW_M: f64 = 0.12;
@@ -27,7 +27,7 @@ const KNOBS: &[Knob] = knobs![BASELINE, WRONG];
 /// Range of the balls' positions, meters to the right and meters away.
 const RANGES_M: [[f64; 2]; 2] = [[-1.2, 1.6], [0.7, 3.2]];
 
-/// P and Q.
+/// The balls P and Q.
 const BALLS: [Probe; 2] = [
     Probe::new("point", "top", "The ball P")
         .on_plan(RANGES_M)
@@ -44,7 +44,7 @@ pub(super) enum Meeting {
     Ahead(Point2<f64>),
     /// Behind the cameras, (x, z) meters.
     Behind(Point2<f64>),
-    /// Nowhere: the rays are parallel.
+    /// No intersection: the rays are parallel.
     Nowhere,
 }
 
@@ -82,13 +82,13 @@ impl TwoCameras {
         Ok(camera.project(&Point3::new(x, BELOW_M, z))?)
     }
 
-    /// Returns the columns taken for images of P, left and right.
+    /// Returns the columns used as images of P, left and right.
     pub(super) fn columns(&self) -> Result<[f64; 2], Problem> {
         let taken = usize::from(self.is_wrong());
         Ok([self.pixel(0, 0)?.x, self.pixel(1, taken)?.x])
     }
 
-    /// Returns the column on the left minus the column on the right, pixels.
+    /// Returns the column in the left image minus the column in the right image, pixels.
     pub(super) fn disparity_px(&self) -> f64 {
         self.columns().map_or(0.0, |[left, right]| left - right)
     }

@@ -1,4 +1,4 @@
-//! The cameras and the balls from above, with both image planes; beside it, both photographs.
+//! Top view of the cameras and the balls, with both image planes; beside it, both photographs.
 
 use super::model::{FOCAL_PX, MIDDLE_PX, Meeting, SIZE, TwoCameras};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
@@ -84,7 +84,7 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     );
     let text = format!("B = {} m", format_number(model.baseline_m(), 2));
     labels.keep_rect_free(span_rect((left.0, right.0), y));
-    // Below it, or beside it at the end of the plan.
+    // Below it, or beside it at the end of the top view.
     let places = [
         (((left.0 + right.0) / 2.0, y + 15.0), Align::Middle),
         ((right.0 + 9.0, y), Align::Start),
@@ -108,8 +108,8 @@ fn draw_top(model: &TwoCameras, panel: &Panel, canvas: &mut Canvas) {
     }
 }
 
-/// Returns the position and the label of the phantom. If it is off the plan, it is marked on the
-/// left ray at the plan's edge, with its distance.
+/// Returns the position and the label of the phantom. If it is outside of the top view, it is
+/// marked on the left ray at the edge, with its distance.
 fn phantom(found: Point2<f64>, panel: &Panel) -> (Point2<f64>, String) {
     let room = 12.0 / panel.scale_x();
     let (nearest, farthest) = (panel.y_axis.end + room, panel.y_axis.start - room);
@@ -120,14 +120,14 @@ fn phantom(found: Point2<f64>, panel: &Panel) -> (Point2<f64>, String) {
     let way = format_number(found.y.abs(), 1);
     let side = if found.y < 0.0 { " behind" } else { "" };
     let text = format!("phantom, {way} m{side}");
-    // The left camera stands at the origin.
+    // The left camera is at the origin.
     (found * (depth / found.y), text)
 }
 
-/// Draws both balls, the column taken for P's and, on the right, its distance from the left one.
+/// Draws both balls, the column used for P and, on the right, its distance from the left one.
 fn draw_photograph(model: &TwoCameras, camera: usize, panel: &Panel, canvas: &mut Canvas) {
     let mut balls = [0, 1].map(|ball: usize| (model.balls()[ball].1, ball));
-    // The nearer ball covers the other.
+    // The nearer ball is drawn last.
     balls.sort_by(|a, b| b.0.total_cmp(&a.0));
     for (depth_m, ball) in balls {
         let Ok(pixel) = model.pixel(camera, ball) else {
@@ -217,7 +217,7 @@ mod tests {
             assert_eq!(told, text);
             let (x, y) = plan.place_of(&shown);
             assert!((1.0..399.0).contains(&x) && (1.0..399.0).contains(&y));
-            // Still on the ray of the left camera.
+            // It remains on the ray of the left camera.
             assert!((shown.x / shown.y - found.x / found.y).abs() < 1e-12);
         }
     }

@@ -1,4 +1,4 @@
-//! A pair of photographs, the shown stage of the pipeline, and the viewpoint of its cloud.
+//! A pair of photographs, the current stage of the pipeline, and the viewpoint of its cloud.
 
 use crate::contract::{
     Asking, Button, ButtonRole, Challenge, Choice, Compute, Control, Declared, Event, FileOffer,
@@ -125,7 +125,7 @@ impl TwoViewSfm {
         self.settings.chosen(&PAIR) == OWN
     }
 
-    /// Returns a photograph, also before the computation.
+    /// Returns a photograph, even before the computation.
     pub(super) fn picture(&self, index: usize) -> Option<&Picture> {
         let answered = self.answer().map(|answer| &answer.pictures[index]);
         answered.or_else(|| self.own.get(index).filter(|_| self.is_own()))
@@ -140,7 +140,7 @@ impl TwoViewSfm {
         }
     }
 
-    /// Returns the rotation of camera 2 relative to camera 1 at the stage, degrees.
+    /// Returns the rotation of camera 2 relative to camera 1 at the current stage, degrees.
     pub(super) fn turn_deg(&self) -> Option<f64> {
         let (question, answer) = self.asked.answered()?;
         let motion = question.motion(answer, self.stage())?;
@@ -152,7 +152,8 @@ impl TwoViewSfm {
         self.source()?.true_turn_deg()
     }
 
-    /// Returns the points of the stage, in the frame of camera 1 and in units of the baseline.
+    /// Returns the points of the current stage, in the frame of camera 1 and in units of the
+    /// baseline.
     fn cloud(&self) -> Option<PointCloud> {
         let motion = self.answer()?.motion.as_ref()?;
         let (points, colors) = match (self.stage(), &motion.surface) {
@@ -189,7 +190,7 @@ impl TwoViewSfm {
         });
     }
 
-    /// Discards all results, since the photographs are different.
+    /// Discards all results, since the photographs have changed.
     fn begin(&mut self) {
         self.asked.forget();
         self.ask();
@@ -281,7 +282,7 @@ impl Model for TwoViewSfm {
     }
 
     fn file(&self) -> Option<FileOffer> {
-        // Offered from the start: a button that comes later would move the toolbar.
+        // Offered from the start, since a button that appears later would shift the toolbar.
         Some(FileOffer {
             label: "Save points",
             hint: "Save the points in color as a PLY file, which MeshLab, CloudCompare and Blender open",
@@ -398,7 +399,8 @@ mod tests {
             assert!((model.turn_deg().unwrap() - truth).abs() < 0.1, "{knock}");
             motion.error_px
         });
-        // RANSAC has refitted its pose to all inliers, so nothing is left to adjust.
+        // RANSAC has refined its pose with all inliers, so bundle adjustment has nothing to
+        // improve.
         assert!((errors[0][0] - errors[0][1]).abs() < 0.002, "{errors:?}");
         assert!(errors[1][0] > 5.0 && errors[2][0] > 25.0, "{errors:?}");
         assert!(errors.iter().all(|error| error[1] < 0.2), "{errors:?}");
@@ -420,7 +422,7 @@ mod tests {
                 .split_whitespace()
                 .next()?;
             let number: usize = number.parse().ok()?;
-            // Three floats and a color.
+            // Three floats and a color per point.
             let header = text.find("end_header\n")? + "end_header\n".len();
             assert_eq!(bytes.len(), header + 15 * number);
             Some(number)

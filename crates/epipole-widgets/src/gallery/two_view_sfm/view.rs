@@ -1,4 +1,4 @@
-//! The two photographs with the results of each stage, and beside them cameras and points in space.
+//! The two photographs with the results of each stage, and beside them cameras and points in 3D.
 
 use super::model::TwoViewSfm;
 use super::words;
@@ -14,20 +14,20 @@ use crate::kit::space::{Space, Subject, draw_handles};
 use crate::theme::Role;
 use nalgebra::{Point2, Point3};
 
-/// Maximum number of match lines, so that the photographs stay visible.
+/// Maximum number of match lines, to keep the photographs visible.
 const MOST_LINES: usize = 32;
-/// Maximum number of points with rays, so that the points stay visible.
+/// Maximum number of points with rays, to keep the points visible.
 const MOST_RAYS: usize = 24;
 const PHOTOS: [&str; 2] = ["first", "second"];
 
 /// Draws [`TwoViewSfm`].
 #[derive(Default)]
 pub(crate) struct TwoViewSfmView {
-    /// Cached frame of a version of the answer.
+    /// Frame cached for a version of the result.
     framed: Option<(u64, Frame)>,
 }
 
-/// The part of space that is shown.
+/// Visible part of the 3D scene.
 #[derive(Clone, Copy)]
 struct Frame {
     subject: Subject,
@@ -95,7 +95,7 @@ impl View for TwoViewSfmView {
     }
 }
 
-/// Draws the titles above the panels, clear of the lines between the photographs.
+/// Draws the titles above the panels, where no lines between the photographs cross them.
 fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
     for (index, id) in PHOTOS.into_iter().enumerate() {
         let Rect { x, y, .. } = layout.panel(id).rect;
@@ -125,7 +125,7 @@ fn draw_titles(model: &TwoViewSfm, layout: &Layout, canvas: &mut Canvas) {
     grid::title(canvas, layout.panel("space").rect, title);
 }
 
-/// Returns the size of a photograph, also before it is there.
+/// Returns the size of a photograph, even before it is available.
 fn size(model: &TwoViewSfm, index: usize) -> (u32, u32) {
     model
         .picture(index)
@@ -195,7 +195,7 @@ fn legend(canvas: &mut Canvas, rect: Rect, num_outliers: usize, num_inliers: usi
     }
 }
 
-/// Returns a frame of the cameras and most of the points, or of the space before camera 1.
+/// Returns a frame of the cameras and most of the points, or of the space in front of camera 1.
 fn frame(answer: &Answer) -> Frame {
     let Some(motion) = &answer.motion else {
         return Frame {
@@ -243,7 +243,7 @@ fn draw_space(
     panel: &Panel,
     canvas: &mut Canvas,
 ) {
-    // A narrow panel shows all of it from farther away.
+    // A narrow panel shows the whole scene from farther away.
     let breadth = panel.rect.width / panel.rect.height.max(1.0);
     let radius = subject.radius * (1.7 / breadth).clamp(1.0, 1.4);
     let subject = Subject { radius, ..subject };
@@ -254,7 +254,7 @@ fn draw_space(
     let Some((first, second)) = question.cameras(answer, stage) else {
         return;
     };
-    // A single picture is drawn where the scene will be.
+    // A single picture is drawn at the position of the future scene.
     let depth = subject.radius * if second.is_none() { 0.9 } else { 0.24 };
     space.ground(&subject.middle, floor, 0.35 * subject.radius, 8);
     for (index, camera) in [Some(&first), second.as_ref()].into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Readouts, description and sentences of `two-view-sfm`.
+//! Readouts, description and messages of `two-view-sfm`.
 
 use super::model::{FocalFrom, TwoViewSfm, focal_text};
 use crate::contract::{Readout, Words, format_number};
@@ -9,7 +9,7 @@ fn degrees(value: f64) -> String {
     format!("{}°", format_number(value, 1))
 }
 
-/// Returns the reason for having no cloud, if there is none.
+/// Returns the reason why there is no cloud, if so.
 pub(super) fn failure((question, answer): (&Question, &Answer)) -> Option<String> {
     let (matches, inliers) = (answer.matches.len(), answer.num_inliers());
     Some(match answer.verdict {
@@ -67,7 +67,7 @@ fn caution(answer: &Answer) -> &'static str {
     }
 }
 
-/// Describes the displacement of camera 2, before and after bundle adjustment.
+/// Describes the perturbation of camera 2, before and after bundle adjustment.
 fn knocks(knock_deg: f64) -> (String, String) {
     let knock = format_number(knock_deg, 1);
     match knock_deg > 0.0 {
@@ -82,7 +82,7 @@ fn knocks(knock_deg: f64) -> (String, String) {
     }
 }
 
-/// Returns the reason for having no dense points although the cameras are known.
+/// Returns the reason why there are no dense points although the cameras are known.
 pub(super) fn no_surface(answer: &Answer) -> Option<String> {
     let motion = answer.motion.as_ref()?;
     let error = motion.surface.as_ref().err()?;
@@ -102,7 +102,7 @@ pub(super) fn no_surface(answer: &Answer) -> Option<String> {
 
 impl Words for TwoViewSfm {
     /// Reports every stage up to the current one. Later stages show a dash, so that every number
-    /// keeps its place.
+    /// keeps its position.
     fn readouts(&self) -> Vec<Readout> {
         let (stage, answer) = (self.stage(), self.answer());
         let unknown = if answer.is_some() || self.asked.problem().is_some() {

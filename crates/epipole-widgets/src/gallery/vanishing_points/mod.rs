@@ -1,5 +1,5 @@
-//! `vanishing-points`: parallel edges meet on the horizon, and two right-angled ones tell the focal
-//! length.
+//! `vanishing-points`: parallel edges meet on the horizon, and two perpendicular directions
+//! determine the focal length.
 
 mod model;
 mod view;

@@ -27,7 +27,8 @@ const FOCAL: Slider = Slider::new("focal", "Focal length")
     .unit("px");
 const KNOBS: &[Knob] = knobs![AROUND, HEIGHT, FOCAL];
 
-/// Point of the table that the camera walks around and looks at, and its distance, meters.
+/// Point of the table at which the camera looks and around which it moves, and its distance,
+/// meters.
 const MIDDLE: [f64; 3] = [0.13, -0.08, -0.05];
 const RADIUS_M: f64 = 1.4;
 /// A point on the rim of the vase, world, meters.
@@ -70,7 +71,7 @@ impl VanishingPoints {
         }
     }
 
-    /// Returns the handles of the corners at their places.
+    /// Returns the handles of the corners.
     fn probes(&self) -> [Probe; 4] {
         let camera = self.camera();
         let cloth = still_life_cloth();
@@ -90,8 +91,8 @@ impl VanishingPoints {
         self.probes().map(|probe| probe.point())
     }
 
-    /// Returns the two pairs of opposite sides: AB with DC, and AD with BC; `None` where two
-    /// corners coincide.
+    /// Returns the two pairs of opposite sides: AB with DC, and AD with BC; `None` if two corners
+    /// coincide.
     pub(super) fn sides(&self) -> Option<[[Line2; 2]; 2]> {
         let [a, b, c, d] = self.corners();
         let line = |from, to| Line2::through(from, to).ok();
@@ -113,7 +114,7 @@ impl VanishingPoints {
         Line2::from_homogeneous(&first.cross(&second)).ok()
     }
 
-    /// Returns the focal length for which the two directions are at right angles, pixels; `None` if
+    /// Returns the focal length for which the two directions are perpendicular, pixels; `None` if
     /// there is none.
     pub(super) fn found_focal_px(&self) -> Option<f64> {
         let middle = self.camera().camera.intrinsics.principal_point();
@@ -125,12 +126,12 @@ impl VanishingPoints {
     /// Returns the distance of the rim of the vase from the horizon, pixels, positive below it.
     pub(super) fn rim_below_px(&self) -> Option<f64> {
         let (horizon, rim) = (self.horizon()?, self.camera().project(&RIM.into()).ok()?);
-        // The line's normal, made to point down.
+        // Makes the line's normal point down.
         let sign = if horizon.b > 0.0 { 1.0 } else { -1.0 };
         Some(sign * horizon.signed_distance(&rim))
     }
 
-    /// Returns the largest distance of a corner from that of the cloth, pixels.
+    /// Returns the maximum distance of a corner from that of the cloth, pixels.
     pub(super) fn moved_px(&self) -> f64 {
         let camera = self.camera();
         let pairs = self.corners().into_iter().zip(still_life_cloth());
@@ -144,7 +145,7 @@ impl VanishingPoints {
 
 /// Returns the pixel of a homogeneous point; `None` at infinity.
 pub(super) fn pixel(point: Vector3<f64>) -> Option<Point2<f64>> {
-    /// Distance beyond which lines count as parallel, pixels.
+    /// Distance beyond which lines are treated as parallel, pixels.
     const FAR_PX: f64 = 1e6;
     let pixel = Point2::new(point.x / point.z, point.y / point.z);
     (pixel.coords.amax() < FAR_PX).then_some(pixel)
@@ -174,7 +175,7 @@ impl Model for VanishingPoints {
         self.probes().iter().map(Probe::handle).collect()
     }
 
-    /// The corners and the camera.
+    /// Returns the corners and the camera.
     fn data(&self) -> Data {
         Data::from([
             ("pixels", Datum::points(&self.corners())),

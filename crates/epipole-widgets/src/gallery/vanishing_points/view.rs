@@ -1,4 +1,5 @@
-//! The photograph with the sides of the cloth, and its surroundings with the vanishing points.
+//! The photograph with the sides of the cloth, and the image plane around it with the vanishing
+//! points.
 
 use super::model::{VanishingPoints, pixel};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
@@ -16,9 +17,9 @@ use nalgebra::Vector3;
 
 /// Maximum height of the panels, CSS pixels.
 const TALLEST: f64 = 430.0;
-/// Columns of the image plane that the surroundings show, pixels.
+/// Columns of the image plane around the photograph, pixels.
 const AROUND_PX: [f64; 2] = [-1000.0, 1640.0];
-/// Row of the image plane in the middle of the surroundings, pixels.
+/// Row of the image plane in the middle of that panel, pixels.
 const MIDDLE_ROW_PX: f64 = 60.0;
 /// Hue and shape of each pair of sides.
 const SIDES: [(Role, Shape); 2] = [
@@ -108,7 +109,7 @@ impl View for VanishingPointsView {
     }
 }
 
-/// Draws sides, vanishing points and horizon; the corners in the photograph alone.
+/// Draws sides, vanishing points and horizon, and in the photograph also the corners.
 fn draw_marks(model: &VanishingPoints, panel: &Panel, canvas: &mut Canvas) {
     let is_photo = panel.id == "photo";
     let corners = model.corners().map(|corner| panel.place_of(&corner));
@@ -153,7 +154,7 @@ fn draw_horizon(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels, horizon
     }
 }
 
-/// Draws a vanishing point, or around the photograph an arrow toward it at the border.
+/// Draws a vanishing point, or in the surrounding image plane an arrow toward it at the border.
 fn draw_vanishing_point(
     canvas: &mut Canvas,
     panel: &Panel,

@@ -1,4 +1,4 @@
-//! `window-search`: the cost of one window along its row, and the minimum between whole pixels.
+//! `window-search`: the cost of one window along its row, and the subpixel minimum.
 
 mod model;
 mod search;

@@ -20,7 +20,7 @@ const REFINEMENT: Choice = Choice::new(
 );
 const KNOBS: &[Knob] = knobs![WINDOW, REFINEMENT];
 
-/// Starts on the mug. The largest window stays within the photograph.
+/// Initially on the mug. The largest window stays within the photograph.
 const PLACE: Probe = Probe::new("place", "left", "Window")
     .within([room(SIZE.0), room(SIZE.1)])
     .at(228.0, 165.0);
@@ -34,7 +34,7 @@ const CANDIDATE: Probe = Probe::new("candidate", "right", "Candidate")
 
 /// Error above which a minimum is wrong, pixels.
 const WRONG_PX: f64 = 2.0;
-/// Height of a curve that shows more than noise, gray levels.
+/// Height of a curve above the level of noise, gray levels.
 const DISTINCT: f64 = 30.0;
 
 /// The model of `window-search`.
@@ -47,7 +47,7 @@ pub(crate) struct WindowSearch {
 }
 
 impl WindowSearch {
-    /// Returns the costs, once the photographs are there.
+    /// Returns the costs, once the photographs are available.
     pub(super) fn curve(&self) -> Option<&Curve> {
         self.curve.as_ref()
     }
@@ -64,8 +64,7 @@ impl WindowSearch {
         }
     }
 
-    /// Returns the candidate's handle, which stays where the window lies within the right
-    /// photograph.
+    /// Returns the candidate's handle, limited to windows within the right photograph.
     fn reachable(&self) -> Probe {
         let most = (self.place.pixel().0 - self.half_px()).min(REACH as u32);
         self.candidate.within([[0.0, most.into()], [0.0; 2]])
@@ -100,7 +99,7 @@ impl WindowSearch {
         self.is_hidden() == Some(false) && self.truth_px().is_some_and(is_reached)
     }
 
-    /// Returns found minus true disparity, pixels.
+    /// Returns computed minus true disparity, pixels.
     pub(super) fn error_px(&self) -> Option<f64> {
         Some(self.found_px()? - self.truth_px()?)
     }
@@ -235,14 +234,14 @@ mod tests {
         let blank = at(5.0, (100.0, 64.0));
         assert!(highest(&blank) < 5.0);
         assert!(blank.error_px().unwrap().abs() > WRONG_PX);
-        // The lower edge of the frame: much contrast, all of it across the row.
+        // The lower edge of the frame: high contrast, all of it perpendicular to the row.
         let edge = at(11.0, (100.0, 72.0));
         assert!(highest(&edge) < 10.0 && edge.error_px().unwrap().abs() < 0.5);
         let repeated = at(5.0, (170.0, 214.0));
         let (rival, ratio) = repeated.rival().unwrap();
         assert_eq!((rival, repeated.curve().unwrap().winner()), (22, 32));
         assert!(ratio < 1.1);
-        // A window of more than one period tells them apart.
+        // A window larger than one period distinguishes them.
         let (_, ratio) = at(15.0, (170.0, 214.0)).rival().unwrap();
         assert!(ratio > 4.0, "{ratio}");
     }

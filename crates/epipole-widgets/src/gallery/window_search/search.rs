@@ -4,7 +4,7 @@ use crate::kit::picture::{Picture, gray_levels};
 use crate::kit::rectified::SIZE;
 use epipole::imaging::GrayImage32;
 
-/// Largest candidate disparity, pixels.
+/// Maximum candidate disparity, pixels.
 pub(super) const REACH: usize = 48;
 /// Half size of the largest window, pixels.
 pub(super) const LARGEST_HALF: u32 = 10;
@@ -19,8 +19,8 @@ pub(super) enum Refinement {
     TwoLines,
 }
 
-/// The cost of each candidate disparity from 0 up: the mean absolute difference of both windows,
-/// gray levels.
+/// Cost of each candidate disparity from 0 up: the mean absolute difference of both windows, gray
+/// levels.
 #[derive(Debug, Clone)]
 pub(super) struct Curve(Vec<f64>);
 
@@ -34,7 +34,7 @@ pub(super) struct Three {
 
 impl Curve {
     /// Compares the window centered at column u and row v of the left photograph with those of the
-    /// right one in the same rows. Candidates that leave the right photograph are left out.
+    /// right one in the same rows. Candidates that leave the right photograph are omitted.
     pub(super) fn new([left, right]: &[Picture; 2], (u, v): (u32, u32), half: u32) -> Self {
         let side = 2 * half + 1;
         let rows = |picture: &Picture| -> GrayImage32 {
@@ -78,7 +78,7 @@ impl Curve {
         })
     }
 
-    /// Returns the minimum between whole disparities, pixels.
+    /// Returns the subpixel minimum, pixels.
     pub(super) fn minimum(&self, refinement: Refinement) -> f64 {
         let offset = self.three().map_or(0.0, |three| three.offset(refinement));
         self.winner() as f64 + offset
@@ -166,7 +166,7 @@ mod tests {
                 }
             }
         }
-        // A parabola through a wedge is drawn towards the whole pixel.
+        // A parabola through a V-shaped minimum is biased towards the integer.
         assert!(wedge.offset(Refinement::Parabola).abs() < 0.29);
         for refinement in BOTH {
             assert_eq!(three(|_| 1.0).offset(refinement), 0.0);

@@ -1,5 +1,5 @@
 //! Both photographs with the window and its candidate; beside or below them the costs of all
-//! candidates, and the lowest one with its neighbors.
+//! candidates, and a close-up of the lowest one with its neighbors.
 
 use super::model::WindowSearch;
 use super::search::{Curve, REACH, Three};
@@ -24,7 +24,7 @@ const NEAR_PX: f64 = 1.6;
 const NUM_POINTS: usize = 60;
 /// Height of the plots relative to the highest cost.
 const HEADROOM: f64 = 1.08;
-/// Highest cost of a curve that is drawn low, gray levels.
+/// Upper end of the axis for low curves, gray levels.
 const LOW: f64 = 40.0;
 /// Side of an enlarged window relative to the height of its photograph.
 const INSET: f64 = 0.3;
@@ -73,8 +73,8 @@ impl View for WindowSearchView {
             [costs, near] = grid.shares([1.25, 1.0], BELOW);
         }
         let ([d, cost], [near_d, near_cost]) = (cost_rulers(model), near_rulers(model));
-        // The world of the right photograph has the window's disparity along the rows, so that the
-        // candidate's handle gives it.
+        // In the right photograph's panel, x is the window's disparity, so that the candidate's
+        // handle gives it.
         let (u, v) = model.place.place();
         let from = |place: f64, size: u32| [-0.5 - place, f64::from(size) - 0.5 - place];
         grid.layout(vec![
@@ -146,7 +146,7 @@ impl View for WindowSearchView {
     }
 }
 
-/// Draws the row, the candidate, the place of the lowest cost, and the true one.
+/// Draws the row, the candidate, the position of the lowest cost, and the true one.
 fn draw_right(
     model: &WindowSearch,
     curve: &Curve,
@@ -164,7 +164,7 @@ fn draw_right(
     }
 }
 
-/// Draws the window, shifted to the left by this many pixels, enlarged in a lower corner.
+/// Draws an enlarged window in a lower corner, shifted to the left by this many pixels.
 fn draw_inset(
     model: &WindowSearch,
     (panel, picture): (&Panel, &Picture),
@@ -175,7 +175,7 @@ fn draw_inset(
     let side = 2 * half + 1;
     let window = crop_imm(picture.image(), u - shift - half, v - half, side, side);
     let (rect, size) = (panel.rect, INSET * panel.rect.height);
-    // Away from the window.
+    // In the corner away from the window.
     let x = match u < SIZE.0 / 2 && v > SIZE.1 / 2 {
         true => rect.right() - size,
         false => rect.x,
@@ -233,7 +233,7 @@ fn draw_near(model: &WindowSearch, three: &Three, panel: &Panel, canvas: &mut Ca
     if let Some(truth) = model.truth_px() {
         draw_truth(canvas, panel, truth);
     }
-    // With the tip of the two lines among the points.
+    // The points include the tip of the two lines.
     let x = |k: usize| NEAR_PX * (2.0 * k as f64 / NUM_POINTS as f64 - 1.0);
     let offset = three.offset(refinement);
     let mut xs: Vec<f64> = (0..=NUM_POINTS).map(x).chain([offset]).collect();

@@ -1,5 +1,4 @@
-//! The picture, and the measurements of a window: the change under every shift, and the structure
-//! tensor.
+//! The picture, and measurements of a window: the change for every shift, and the structure tensor.
 
 use crate::kit::picture::gray_levels;
 use crate::kit::scenes::square_picture;
@@ -10,14 +9,14 @@ use nalgebra::Vector2;
 
 /// Maximum shift along each axis, pixels.
 pub(super) const REACH: usize = 8;
-/// The shown part of the picture: left, top, width and height, pixels. Shifted windows also use
+/// Visible part of the picture: left, top, width and height, pixels. Shifted windows also use
 /// pixels around it.
 pub(super) const SHOWN: (u32, u32, u32, u32) = (100, 75, 120, 90);
 /// Half size of the largest window, pixels.
 pub(super) const LARGEST_HALF: u32 = 10;
 /// Root mean square change on the ellipse of Taylor's estimate, gray levels.
 pub(super) const CHANGE: f64 = 60.0;
-/// Squared gain of Sobel's 3×3 filter, which is 8 times the slope.
+/// Squared gain of the 3 × 3 Sobel filter, which is 8 times the slope.
 const SOBEL_GAIN_SQ: f64 = 64.0;
 
 /// Classification of a window.
@@ -28,7 +27,7 @@ pub(super) enum Verdict {
     Corner,
 }
 
-/// Measurements of a window. Sums are divided by the number of its pixels.
+/// Measurements of a window. Sums are divided by its number of pixels.
 pub(super) struct Found {
     tensor: WindowTensor,
     surface: ShiftSurface,
@@ -36,12 +35,12 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// Returns the squared change under a shift by whole pixels; 0 beyond the reach.
+    /// Returns the squared change for a shift by whole pixels; 0 beyond the reach.
     pub(super) fn change(&self, (du, dv): (f64, f64)) -> f64 {
         self.surface.at(du as i32, dv as i32).unwrap_or(0.0) / self.pixels
     }
 
-    /// Returns Taylor's estimate of the squared change under a shift.
+    /// Returns Taylor's estimate of the squared change for a shift.
     pub(super) fn estimate(&self, (du, dv): (f64, f64)) -> f64 {
         self.tensor.change(&Vector2::new(du, dv)) / self.pixels
     }
@@ -52,7 +51,7 @@ impl Found {
         (large / self.pixels, small / self.pixels)
     }
 
-    /// Returns the ellipse of shifts with an estimated change of [`CHANGE`]: the half axes in
+    /// Returns the ellipse of shifts with an estimated change of [`CHANGE`]: the semi-axes in
     /// pixels, shorter first, and the direction of the shorter one. An undetermined axis is a
     /// thousand pixels long.
     pub(super) fn ellipse(&self) -> (f64, f64, f64) {
@@ -62,7 +61,7 @@ impl Found {
         (half_axis(large), half_axis(small), angle)
     }
 
-    /// Classifies the window; eigenvalues count as large from `threshold`.
+    /// Classifies the window; eigenvalues are large from `threshold` on.
     pub(super) fn verdict(&self, threshold: f64) -> Verdict {
         let (large, small) = self.eigenvalues();
         match (large >= threshold, small >= threshold) {
@@ -73,7 +72,7 @@ impl Found {
     }
 }
 
-/// Returns the shown part of the picture, and the whole picture in gray levels.
+/// Returns the visible part of the picture, and the whole picture in gray levels.
 pub(super) fn take_picture(noise: f64) -> (RgbImage, GrayImage32) {
     let whole = square_picture(noise);
     let (left, top, width, height) = SHOWN;

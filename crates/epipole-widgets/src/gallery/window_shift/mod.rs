@@ -1,4 +1,4 @@
-//! `window-shift`: the change of a window under a shift, and its estimate by the structure tensor.
+//! `window-shift`: the change of a window when shifted, and its estimate by the structure tensor.
 
 mod measure;
 mod model;

@@ -1,4 +1,4 @@
-//! A window on a picture, the squared change under every shift, and Taylor's estimate of it.
+//! A window of a picture, the squared change for every shift, and its Taylor estimate.
 
 use super::measure::{Found, LARGEST_HALF, REACH, SHOWN, Verdict, find, take_picture};
 use crate::contract::{
@@ -22,7 +22,7 @@ const THRESHOLD: Slider = Slider::new("threshold", "λ large above")
     .at(100.0);
 const KNOBS: &[Knob] = knobs![WINDOW, NOISE, THRESHOLD];
 
-/// Initially on a corner of the square. The largest window stays within the shown part.
+/// Initially on a corner of the square. The largest window stays within the visible part.
 const PLACE: Probe = Probe::new("place", "picture", "Window")
     .within([room(SHOWN.0, SHOWN.2), room(SHOWN.1, SHOWN.3)])
     .step(2.0)
@@ -47,12 +47,12 @@ pub struct WindowShift {
     settings: Settings,
     pub(super) window: Probe,
     pub(super) shift: Probe,
-    /// Shown part of the picture.
+    /// Visible part of the picture.
     pub(super) picture: RgbImage,
     /// Gray levels of the whole picture.
     gray: GrayImage32,
     found: Result<Found, epipole::Error>,
-    /// Counter of pictures and positions, for the cache of the view's map.
+    /// Version of picture and window, for the cache of the view's map.
     pub(super) version: u64,
 }
 

@@ -1,4 +1,4 @@
-//! The picture with its window, the squared change as a map, and the same as a surface.
+//! The picture with its window, and the squared change as a map and as a surface.
 
 use super::measure::{CHANGE, Found, REACH, SHOWN};
 use super::model::WindowShift;
@@ -11,7 +11,7 @@ use crate::theme::{Role, Theme, mix};
 use image::RgbImage;
 
 const LEGEND: f64 = 26.0;
-/// Root mean square change from one level line to the next, gray levels.
+/// Difference of root mean square changes between neighboring level lines, gray levels.
 const LEVEL: f64 = 15.0;
 /// Root mean square change drawn at full saturation, gray levels.
 const STRONG: f64 = 150.0;
@@ -93,7 +93,7 @@ fn windows(canvas: &mut Canvas, panel: &Panel, model: &WindowShift) {
     canvas.grip(still, Role::Grip);
 }
 
-/// Draws the ellipse of Taylor's estimate, its half axes, and the tested shift.
+/// Draws the ellipse of Taylor's estimate, its semi-axes, and the tested shift.
 fn ellipse(canvas: &mut Canvas, panel: &Panel, model: &WindowShift, found: &Found) {
     let (short, long, angle) = found.ellipse();
     let across = (libm::cos(angle), libm::sin(angle));

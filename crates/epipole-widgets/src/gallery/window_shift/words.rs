@@ -5,7 +5,7 @@ use super::model::WindowShift;
 use crate::contract::{Readout, Words, format_number};
 
 impl Verdict {
-    /// Returns the class in one word, as in the picture and beside it.
+    /// Returns the class as one word.
     pub(super) fn word(self) -> &'static str {
         match self {
             Verdict::Flat => "flat",

@@ -1,4 +1,4 @@
-//! The block from above with the three paths around it.
+//! Top view of the block with three paths around it.
 
 use super::super::drive::centers;
 use super::super::model::ScaleDrift;
@@ -19,22 +19,23 @@ const MARGIN: f64 = 0.05;
 const NUM_CAMERAS: usize = 10;
 /// Size of a camera's arrowhead at scale 1, in true steps.
 const ARROW: f64 = 1.6;
-/// Height below the paths that the rule takes, CSS pixels.
+/// Height of the scale bar below the paths, CSS pixels.
 const RULE_ROOM: f64 = 22.0;
 
-/// From above, with the first heading to the right: z to the right, and the left side up.
+/// Projects a point to the top view, with the initial heading to the right: z to the right, and the
+/// left side up.
 fn from_above(point: &Point3<f64>) -> Place {
     (point.z, -point.x)
 }
 
-/// A panel in which all paths are inside, one step as long up as to the right.
+/// Creates a panel that contains all paths, with one scale for both directions.
 pub(super) fn panel(model: &ScaleDrift, rect: Rect) -> Panel {
     let (mut low, mut high) = ((0.0_f64, 0.0_f64), (0.0_f64, 0.0_f64));
     let mut cover = |(x, y): Place| {
         low = (low.0.min(x), low.1.min(y));
         high = (high.0.max(x), high.1.max(y));
     };
-    // All of the drive, however far it has come, so that the map stays while the camera moves.
+    // The whole drive, so that the map does not change while the camera moves.
     let drive = &model.drive;
     centers(&drive.truth)
         .iter()
@@ -95,7 +96,8 @@ pub(super) fn draw(model: &ScaleDrift, map: &Panel, canvas: &mut Canvas) {
     draw_labels(model, map, [&truth, &before, &after], canvas);
 }
 
-/// Every few frames the camera, as an arrowhead as large as things around it come out.
+/// Draws the camera every few frames, as an arrowhead whose size is that of reconstructed objects
+/// around it.
 fn draw_cameras(path: &Judged, model: &ScaleDrift, role: Role, map: &Panel, canvas: &mut Canvas) {
     let stride = (model.num_steps() / NUM_CAMERAS).max(1);
     for (pose, scale) in path.poses.iter().zip(&path.scale).step_by(stride) {
@@ -105,7 +107,8 @@ fn draw_cameras(path: &Judged, model: &ScaleDrift, role: Role, map: &Panel, canv
     }
 }
 
-/// The arrowhead of one camera, in steps: its tip is ahead, the camera in the middle of its back.
+/// Returns the arrowhead of a camera, in steps: its tip is ahead, the camera in the middle of its
+/// back edge.
 fn arrow(pose: &RigidTransform, scale: f64) -> [Place; 3] {
     [(0.0, 1.2), (-0.6, 0.0), (0.6, 0.0)].map(|(sideways, ahead)| {
         let ray = Vector3::new(sideways, 0.0, ahead) * (ARROW * scale);

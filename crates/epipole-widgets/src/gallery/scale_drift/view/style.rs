@@ -5,7 +5,7 @@ use crate::theme::Role;
 
 /// Ground truth.
 pub(super) const TRUTH: Stroke = Stroke::solid(Role::Truth, 1.75).dotted();
-/// Odometry, before the loop is closed.
+/// Odometry, before loop closure.
 pub(super) const BEFORE: Stroke = Stroke::solid(Role::Series(1), 1.75).dashed();
-/// The loop closed.
+/// Path after loop closure.
 pub(super) const AFTER: Stroke = Stroke::solid(Role::Best, 2.25);

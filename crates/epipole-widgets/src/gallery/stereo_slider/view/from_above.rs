@@ -1,5 +1,5 @@
-//! The rig from above: rays, image planes with the similar triangles of Z = f B / d, and what a
-//! pixel of error leaves open.
+//! Top view of the rig: rays, image planes with the similar triangles of Z = f B / d, and the
+//! depths that a pixel of error leaves possible.
 
 use super::super::model::DEPTH_RANGE_M;
 use super::super::rig::{Measured, Rig};
@@ -14,22 +14,22 @@ use crate::kit::plan::{self, draw_span};
 use crate::kit::scenes::PHOTO_WIDTH;
 use crate::theme::Role;
 
-/// The table: left, right, near and far edge, meters.
+/// Extent of the table: left, right, near and far edge, meters.
 const TABLE_M: [f64; 4] = [-0.95, 0.95, 0.35, 11.35];
 /// Visible range to each side of the left camera, and beyond the farthest ball, meters.
 const SIDE_M: f64 = 1.0;
 const BEYOND_M: f64 = 0.8;
-/// Room below the cameras for the baseline and its length, CSS pixels.
+/// Height below the cameras for the baseline and its length, CSS pixels.
 const BELOW: f64 = 36.0;
 /// Distance of a drawn image plane at a focal length of 1000 pixels, meters; at true scale it would
 /// be too close to see.
 const PLANE_M: f64 = 1.9;
 /// Maximum distance of the image plane, as a fraction of the ball's depth.
 const NEARER: f64 = 0.6;
-/// Narrower than this there is room for the shortest labels only.
+/// Width below which there is room only for the shortest labels, CSS pixels.
 const SMALL: f64 = 300.0;
 
-/// The panel; it is stretched sideways, so that the baseline can be seen.
+/// Creates the panel, stretched horizontally to make the baseline visible.
 pub(super) fn panel(rect: Rect) -> Panel {
     let far = DEPTH_RANGE_M[1] + BEYOND_M;
     let below = -far * BELOW / (rect.height - BELOW).max(1.0);
@@ -85,7 +85,7 @@ fn draw_table(canvas: &mut Canvas, panel: &Panel) {
     canvas.stroke_rect(table, Stroke::solid(Role::Grid, 1.0));
 }
 
-/// The depths that one pixel more or less leaves open: a band, and the part of the left ray in it.
+/// Draws the depths possible within one pixel of error: a band, and the part of the left ray in it.
 fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, rig: &Rig, measured: Measured) {
     let near_m = measured.interval.near_m;
     let far_m = measured.interval.far_m.unwrap_or(f64::INFINITY);
@@ -101,9 +101,8 @@ fn draw_uncertainty(canvas: &mut Canvas, panel: &Panel, rig: &Rig, measured: Mea
             canvas.line((rect.x, y), (rect.right(), y), stroke);
         }
     }
-    // The region that the right camera allows: between the rays of the columns one pixel to either
+    // The region allowed by the right camera: between the rays of the columns one pixel to either
     // side.
-    // to either side.
     let right = panel.canvas_from_world((rig.baseline_m, 0.0));
     canvas.polygon(&[right, near, far], UNCERTAIN, 0.35);
     canvas.line(near, far, Stroke::solid(UNCERTAIN, 5.0));
@@ -124,7 +123,7 @@ fn draw_cameras(canvas: &mut Canvas, panel: &Panel, labels: &mut Labels, rig: &R
                 Stroke::solid(role, 1.0).dotted(),
             );
         }
-        // The two planes are one line: the right one is drawn a little above it.
+        // Both image planes are on one line, so the right one is drawn slightly above it.
         let lift = 2.5 * (0.5 - index as f64);
         let end = |x: f64| (at(x, plane_m).0, at(x, plane_m).1 + lift);
         canvas.line(end(-half_m), end(half_m), Stroke::solid(role, 2.5));
@@ -165,8 +164,8 @@ fn plane_m(rig: &Rig) -> f64 {
     (PLANE_M * rig.focal_px / 1000.0).min(NEARER * rig.z_m)
 }
 
-/// The large triangle on the baseline with the ball at its top, and the small one on the image
-/// plane: the left ray, moved to the right camera, opens there just as far.
+/// Draws the similar triangles: the large one from the baseline to the ball, and the small one on
+/// the image plane, between the right ray and the left ray shifted to the right camera.
 fn draw_triangles(
     canvas: &mut Canvas,
     panel: &Panel,

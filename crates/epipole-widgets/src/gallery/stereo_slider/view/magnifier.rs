@@ -1,4 +1,5 @@
-//! The match magnified in a corner of the right photograph, so that single pixels can be seen.
+//! A magnified view of the match in a corner of the right photograph, in which single pixels are
+//! visible.
 
 use super::style::UNCERTAIN;
 use crate::canvas::{Align, Canvas, Place, Stroke, TextStyle};
@@ -16,14 +17,14 @@ const COLUMNS: u32 = 17;
 const ROWS: u32 = 11;
 /// Side of the square that each pixel is enlarged to, pixels.
 const SQUARE: u32 = 12;
-/// Width of the glass over the width of the photograph.
+/// Width of the magnified view relative to the photograph.
 const SHARE: f64 = 0.36;
 /// Margin to the borders of the photograph, CSS pixels.
 const MARGIN: f64 = 6.0;
 /// Gap between the leader line and the match, CSS pixels.
 const CLEAR: f64 = 8.0;
 
-/// The surroundings of a pixel.
+/// Neighborhood of a pixel.
 pub(super) struct Magnifier {
     squares: RgbImage,
     /// Position of the match in the region, pixels of the photograph.

@@ -1,4 +1,5 @@
-//! Beside the region: where the estimates appear in the photographs, or how the uncertainty grows.
+//! Panels beside the region: projections of the estimates in the photographs, or the growth of the
+//! uncertainty.
 
 use super::style::{METHOD_ROLE, REGION, SHAPES, draw_bar};
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
@@ -20,9 +21,9 @@ const RADII: [f64; 4] = [5.5, 5.5, 8.5, 4.0];
 const LEAST_PX: f64 = 0.5;
 /// Maximum half size of a patch without its margin, pixels.
 const FARTHEST_PX: f64 = 500.0;
-/// Narrower patches do not name the other ray, CSS pixels.
+/// Width below which a patch does not name the other ray, CSS pixels.
 const WORDY: f64 = 180.0;
-/// Uncertainties that the plots show, powers of ten of a centimeter.
+/// Range of uncertainties in the plots, powers of ten of a centimeter.
 const OVER_ANGLE: [f64; 2] = [-1.0, 2.3];
 const OVER_DISTANCE: [f64; 2] = [-1.3, 4.3];
 
@@ -41,7 +42,7 @@ fn rulers(show: Show) -> [Ruler; 2] {
     }
 }
 
-/// The panels in a cell of the picture.
+/// Creates the panels in a cell of the picture.
 pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     if model.show() != Show::Misses {
         let [x, y] = rulers(model.show());
@@ -53,7 +54,7 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     } else {
         grid::stack(cell, [1.0; 2])
     };
-    // One scale for both, since their distances are compared.
+    // One scale for both patches, to compare their distances.
     let half_px = estimates.map_or(LEAST_PX, |estimates| {
         half_px(estimates, 0).max(half_px(estimates, 1))
     });
@@ -70,7 +71,7 @@ pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     rects.into_iter().enumerate().map(patch).collect()
 }
 
-/// Half of the side of a patch that shows all estimates and the other ray, pixels.
+/// Returns half of the side of a patch that shows all estimates and the other ray, pixels.
 fn half_px(estimates: &Estimates, camera: usize) -> f64 {
     let mut most = LEAST_PX;
     for method in 0..METHODS.len() {
@@ -116,7 +117,7 @@ pub(super) fn draw(model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
     }
 }
 
-/// The pixel in the middle, the line on which it should be, and every estimate's image.
+/// Draws the pixel in the middle, its epipolar line, and the projection of every estimate.
 fn draw_patch(estimates: &Estimates, camera: usize, panel: &Panel, canvas: &mut Canvas) {
     let (role, shape) = CAMERAS[camera];
     let other = CAMERAS[1 - camera].0;
@@ -145,7 +146,7 @@ fn draw_patch(estimates: &Estimates, camera: usize, panel: &Panel, canvas: &mut 
         canvas.marker(middle, 4.5, shape, role, true);
         for (method, place) in &images {
             let (shape, radius) = (SHAPES[*method], RADII[*method]);
-            // One around another, where they agree.
+            // Nested marks, since these methods agree.
             if shape == Shape::Triangle {
                 canvas.hollow_marker(*place, radius, shape, METHOD_ROLE, false);
             } else {

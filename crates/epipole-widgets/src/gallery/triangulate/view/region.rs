@@ -1,4 +1,4 @@
-//! The surroundings of the point, enlarged: both rays, all estimates, and the repeated estimates.
+//! Enlarged neighborhood of the point: both rays, all estimates, and the repeated estimates.
 
 use super::style::{METHOD_ROLE, REGION, SHAPES, draw_bar};
 use crate::canvas::{Canvas, Shape, Stroke};
@@ -36,7 +36,7 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
     if let Some(axes) = estimates.axes {
         draw_region(&mut space, &truth, &axes);
     }
-    // Around the small cross to move by, which is in the middle.
+    // Around the small cross of the pan handle, which is in the middle.
     space.marker(&truth, 9.0, Shape::Ring, Role::Truth);
     for (point, shape) in estimates.points.iter().zip(SHAPES) {
         if let Ok(point) = point {
@@ -49,7 +49,7 @@ pub(super) fn draw(model: &Triangulate, estimates: &Estimates, panel: &Panel, ca
     draw_handles(canvas, panel, &model.orbit);
 }
 
-/// The region of two standard deviations: its outline in the planes of its axes.
+/// Draws the two-sigma ellipsoid by its outlines in the planes of its axes.
 fn draw_region(space: &mut Space, middle: &Point3<f64>, axes: &[Vector3<f64>; 3]) {
     const CORNERS: usize = 48;
     for (a, b) in [(0, 1), (0, 2)] {

@@ -1,4 +1,4 @@
-//! Markers of the methods, the color of the uncertainty region, and bars of scale.
+//! Markers of the methods, the color of the uncertainty region, and scale bars.
 
 use crate::canvas::{Align, Canvas, Shape, Stroke, TextStyle};
 use crate::contract::{Rect, format_number};
@@ -9,11 +9,11 @@ use crate::theme::Role;
 pub(super) const REGION: Role = Role::Series(3);
 /// Marker of each method.
 pub(super) const SHAPES: [Shape; 4] = [Shape::Cross, Shape::Plus, Shape::Triangle, Shape::Diamond];
-/// All estimates are of one kind; their shapes tell them apart.
+/// Role of all estimates, which are distinguished by shape.
 pub(super) const METHOD_ROLE: Role = Role::Ink;
 
-/// Draws a bar of a round number of units, at most a quarter of the width, in the upper or lower
-/// left corner.
+/// Draws a scale bar of a round length, at most a quarter of the width, in the upper or lower left
+/// corner.
 ///
 /// * `per_unit`: CSS pixels per unit, and the unit's name
 pub(super) fn draw_bar(
