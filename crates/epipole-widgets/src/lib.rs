@@ -1,9 +1,10 @@
 //! The interactive figures of Epipole.
 //!
-//! A figure is a **model** (state and mathematics, no drawing) and a **view** (drawing, no
-//! mathematics beyond layout), both in `gallery/<name>/` and listed once in [`gallery`].
-//! [`contract`] defines the interface of a figure; users drive it through [`Figure`]. The crate
-//! depends on neither browser nor clock: it turns events into state, and state into pixels.
+//! A figure consists of a **model** (state and mathematics, without drawing) and a **view**
+//! (drawing, without mathematics beyond layout), both in `gallery/<name>/` and listed once in
+//! [`gallery`]. [`contract`] defines the interface of a figure; users access it through [`Figure`].
+//! The crate depends on neither browser nor clock: it turns events into state, and state into
+//! pixels.
 //!
 //! ```
 //! # fn main() -> Result<(), epipole_widgets::contract::Problem> {

@@ -1,9 +1,9 @@
-//! Conversion of pointer and key input to events, so that mouse, finger and arrow keys alike give
+//! Conversion of pointer and key input to events: mouse, touch and arrow keys all give
 //! [`Event::HandleMoved`].
 
 use crate::contract::{Event, Handle, Layout, Panel};
 
-/// Largest distance at which a finger or mouse takes a handle, CSS pixels.
+/// Maximum distance at which a finger or mouse grabs a handle, CSS pixels.
 pub const GRAB_RADIUS: f64 = 22.0;
 
 /// Direction of an arrow key on the page.
@@ -28,7 +28,7 @@ pub fn place_of(handle: &Handle, layout: &Layout) -> (f64, f64) {
         .canvas_from_world((handle.x, handle.y))
 }
 
-/// Returns the handle that a press at `place` takes: the nearest within [`GRAB_RADIUS`].
+/// Returns the handle that a press at `place` grabs: the nearest within [`GRAB_RADIUS`].
 pub fn handle_at<'a>(
     handles: &'a [Handle],
     layout: &Layout,
@@ -56,8 +56,8 @@ pub fn drag(handle: &Handle, layout: &Layout, place: (f64, f64)) -> Event {
     }
 }
 
-/// Returns the event of an arrow key: `steps` of the handle's own step towards `direction` on the
-/// page, whichever way the panel's axis runs.
+/// Returns the event of an arrow key: `steps` times the handle's step towards `direction` on the
+/// page, whatever the direction of the panel's axis.
 pub fn nudge(handle: &Handle, layout: &Layout, direction: Direction, steps: f64) -> Event {
     let panel = layout.panel(handle.panel);
     let (x_sign, y_sign) = signs(panel);
@@ -75,7 +75,7 @@ pub fn nudge(handle: &Handle, layout: &Layout, direction: Direction, steps: f64)
 }
 
 /// Returns the event of Home (`Left`) and End (`Right`), which move a handle to the end of its
-/// range. A handle that cannot move sideways moves up and down instead.
+/// range. A handle that cannot move horizontally moves vertically instead.
 pub fn to_the_end(handle: &Handle, layout: &Layout, direction: Direction) -> Event {
     let panel = layout.panel(handle.panel);
     let (x_sign, y_sign) = signs(panel);

@@ -1,5 +1,5 @@
 //! Snapshot of everything that a page shows beside the picture, as plain data for pages in the
-//! browser and for pages built ahead of time.
+//! browser and for prerendered pages.
 
 use crate::contract::{
     Aspect, ChallengeStatus, Control, FileOffer, Handle, Layout, PhotoSlot, PlacedSymbol, Readout,

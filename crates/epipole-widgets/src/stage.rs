@@ -1,4 +1,4 @@
-//! A model with its view, types erased, so that one list can hold all figures.
+//! A model with its view as a trait object, so that one list can contain all figures.
 
 use crate::canvas::Canvas;
 use crate::contract::{

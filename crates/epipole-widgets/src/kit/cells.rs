@@ -1,11 +1,11 @@
-//! Numbers in cells: small images and tables with readable values.
+//! Cells with numbers: small images and tables with readable values.
 
 use crate::canvas::{Canvas, TextStyle, text_width};
 use crate::contract::{Panel, Rect};
 use crate::kit::grid::TEXT;
 use crate::theme::Rgb;
 
-/// Narrowest cell with a number, CSS pixels.
+/// Minimum width of a cell with a number, CSS pixels.
 const SMALLEST: f64 = 17.0;
 
 /// Returns the rectangle of a pixel and its `reach` neighbors on each side, in a panel of an image.

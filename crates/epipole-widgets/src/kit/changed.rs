@@ -1,10 +1,10 @@
-//! A photograph that is turned, scaled and lit otherwise, around a place.
+//! A photograph that is rotated, scaled and changed in brightness, around a point.
 
 use epipole::Error;
 use epipole::imaging::{Border, GrayImage32, gaussian_blur, sample_bilinear};
 use serde::{Deserialize, Serialize};
 
-/// Side of the changed piece of the photograph, pixels; and its middle.
+/// Side of the changed crop of the photograph, pixels; then its middle.
 const PIECE_PX: u32 = 161;
 pub(crate) const MIDDLE: f64 = (PIECE_PX / 2) as f64;
 
@@ -27,7 +27,7 @@ impl Change {
         contrast: 1.0,
     };
 
-    /// Returns a piece of the changed photograph around a position in the original.
+    /// Returns a crop of the changed photograph around a position in the original.
     ///
     /// # Errors
     /// As [`gaussian_blur`].
@@ -37,7 +37,7 @@ impl Change {
         place: (f64, f64),
     ) -> Result<GrayImage32, Error> {
         let (sin, cos) = (libm::sin(self.turn_rad), libm::cos(self.turn_rad));
-        // Downscaling needs a blur first, against aliasing.
+        // Blurs before downscaling, to avoid aliasing.
         let blur_px = 0.5 * (1.0 / (self.zoom * self.zoom) - 1.0).max(0.0).sqrt();
         let smooth;
         let source = match blur_px > 0.1 {

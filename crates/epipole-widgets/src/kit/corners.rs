@@ -1,4 +1,4 @@
-//! The corners A to D of a rectangle, which the reader drags in the panel `photo`.
+//! Corners A to D of a rectangle, which the reader drags in the panel `photo`.
 
 use crate::canvas::{Canvas, Place};
 use crate::kit::grid::TEXT;
@@ -6,7 +6,7 @@ use crate::kit::labels::Labels;
 use crate::kit::probe::{Probe, place_words};
 use crate::theme::Role;
 
-/// Handles of the corners, in order around the rectangle; a figure sets their ranges and places.
+/// Handles of the corners, in order around the rectangle; a figure sets their ranges and positions.
 pub(crate) const CORNERS: [Probe; 4] = [
     corner("a", "Corner A, far left"),
     corner("b", "Corner B, far right"),

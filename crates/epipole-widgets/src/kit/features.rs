@@ -1,6 +1,6 @@
 //! Two photographs of the still life with their SIFT features and ground-truth matches.
 //!
-//! Figures that match features show this pair, so that a reader meets the same matches again.
+//! Shared by all figures that match features, so that a reader meets the same matches again.
 
 use crate::contract::Progress;
 use crate::kit::scenes::{self, photograph, still_life_pair};
@@ -18,12 +18,12 @@ use std::sync::OnceLock;
 pub(crate) const SIZE: (u32, u32) = (480, 360);
 /// Pose of the second camera: meters to the right, meters forward, degrees to the left.
 const MOTION: (f64, f64, f64) = (0.35, -0.25, 14.0);
-/// Number of strongest features kept per photograph; more only crowd the picture.
+/// Maximum number of features per photograph, the strongest; more would only crowd the picture.
 const MAX_FEATURES: usize = 600;
-/// Largest distance of a correct match from its true position, pixels.
+/// Maximum distance of a correct match from its true position, pixels.
 pub(crate) const RIGHT_WITHIN_PX: f64 = 3.0;
 
-/// The still life from two places, computed once: posters of several sizes and figures share it.
+/// The still life from two positions, cached for posters of several sizes and for several figures.
 pub(crate) struct Pair {
     pub(crate) photographs: [&'static RgbImage; 2],
     pub(crate) features: [&'static Features; 2],
@@ -34,8 +34,7 @@ pub(crate) struct Pair {
 impl Pair {
     /// Renders the photographs and detects their features on the first call.
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn of_still_life(progress: Progress<'_>) -> Result<&'static Self, Error> {
         static FOUND: OnceLock<Pair> = OnceLock::new();
         if let Some(found) = FOUND.get() {
@@ -64,8 +63,7 @@ impl Pair {
 
     /// Returns one of the photographs, 0 or 1.
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn photograph(
         index: usize,
         progress: Progress<'_>,
@@ -80,8 +78,7 @@ impl Pair {
 
     /// Returns the features of one of the photographs, 0 or 1.
     ///
-    /// # Errors
-    /// [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn features(
         index: usize,
         progress: Progress<'_>,

@@ -1,4 +1,4 @@
-//! The epipolar geometry of two cameras that take photographs of the book's scenes.
+//! Epipolar geometry of two cameras that photograph the book's scenes.
 
 use crate::contract::{Mark, Symbol};
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH};
@@ -10,7 +10,7 @@ use epipole::epipolar::{
 use epipole::math::Line2;
 use nalgebra::{Matrix3, Point2};
 
-/// The epipolar geometry of two cameras.
+/// Epipolar geometry of two cameras.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Geometry {
     pub(crate) fundamental: Matrix3<f64>,
@@ -38,11 +38,11 @@ impl Geometry {
         epipolar_line2(&self.fundamental, pixel1).ok()
     }
 
-    /// Returns the epipolar line through a pixel of photograph 1: all its points have the same line
-    /// in photograph 2.
+    /// Returns the epipolar line through a pixel of photograph 1, all points of which have the same
+    /// line in photograph 2.
     pub(crate) fn line1(&self, pixel1: &Point2<f64>) -> Option<Line2> {
         let line2 = self.line2(pixel1)?;
-        // Any point of the line in photograph 2 gives it, except the epipole.
+        // Any point of the line in photograph 2 determines it, except for the epipole.
         let center = Point2::new(f64::from(PHOTO_WIDTH), f64::from(PHOTO_HEIGHT)) * 0.5;
         let foot = line2.nearest(&center);
         let other = Point2::new(foot.x - 500.0 * line2.b, foot.y + 500.0 * line2.a);
@@ -57,7 +57,7 @@ impl Geometry {
 /// Returns the symbols of a pixel, its match, its epipolar line and the epipoles, in the panels
 /// `first` and `second`.
 ///
-/// * `pixels`: p and p′, where the cameras see them
+/// * `pixels`: p and p′, if visible to the cameras
 /// * `geometry`: `None` if both cameras have the same center
 pub(crate) fn symbols(
     pixels: [Option<Point2<f64>>; 2],
@@ -78,7 +78,7 @@ pub(crate) fn symbols(
         .collect()
 }
 
-/// Returns the symbols of a pixel, its match and its line in the panel `second`, where they exist.
+/// Returns the symbols of a pixel, its match and its line in the panel `second`, if they exist.
 pub(crate) fn match_symbols(
     [pixel1, pixel2]: [Option<Point2<f64>>; 2],
     line2: Option<Line2>,
@@ -98,7 +98,7 @@ pub(crate) fn match_symbols(
         .collect()
 }
 
-/// Returns the symbols of one of many matches, the one nearest to the middle of photograph 1.
+/// Returns the symbols of one of many matches, the one nearest to the center of photograph 1.
 pub(crate) fn symbols_of_one(
     matches: impl Iterator<Item = [Point2<f64>; 2]>,
     (width, height): (u32, u32),
@@ -137,7 +137,7 @@ mod tests {
                 assert!(sampson_px(&geometry.fundamental, &point, &pixel2) < 1e-6);
                 let line1 = geometry.line1(&point).unwrap();
                 assert!(line1.signed_distance(&point).abs() < 1e-6);
-                // Check with E, which constrains rays as F constrains pixels.
+                // Checks with E, which constrains rays as F constrains pixels.
                 let [ray1, ray2] = [
                     cameras[0].camera.intrinsics.ray(&point),
                     cameras[1].camera.intrinsics.ray(&pixel2),

@@ -1,6 +1,8 @@
-//! Titled panels in rows, with one breakpoint for all figures, and notices instead of pictures.
+//! Titled panels in rows, with common breakpoints for all figures, and notices in place of
+//! pictures.
 //!
-//! A view asks a [`Grid`] for rows from the top down and makes panels of the rectangles it returns.
+//! A view requests rows from a [`Grid`], from the top down, and creates panels in the returned
+//! rectangles.
 
 use crate::canvas::{Canvas, TextStyle, paragraph_height, text_width};
 use crate::contract::{Layout, Panel, Rect};
@@ -19,7 +21,7 @@ const NARROW: f64 = 560.0;
 /// Width from which panels are arranged side by side, CSS pixels.
 const BROAD: f64 = 900.0;
 
-/// Maximum height of a picture on a phone, so that sliders fit on the screen, CSS pixels.
+/// Maximum height of a picture on a phone, CSS pixels, so that sliders fit on the screen.
 const PHONE: f64 = 376.0;
 
 /// Returns whether a picture of this width is for a phone.
@@ -27,7 +29,7 @@ pub(crate) fn is_narrow(width: f64) -> bool {
     width < NARROW
 }
 
-/// Returns whether a picture of this width is for a broad page.
+/// Returns whether a picture of this width is for a wide page.
 pub(crate) fn is_broad(width: f64) -> bool {
     width >= BROAD
 }
@@ -55,8 +57,8 @@ impl Grid {
         self.bottom + gap + TITLE
     }
 
-    /// Adds cells of one height that fill the width; they are shrunk and centered where they would
-    /// be taller than `tallest`.
+    /// Adds cells of equal height that fill the width; if taller than `tallest`, they are shrunk
+    /// and centered.
     ///
     /// * `aspects`: height over width of each
     pub(crate) fn row<const N: usize>(&mut self, aspects: [f64; N], tallest: f64) -> [Rect; N] {
@@ -84,7 +86,7 @@ impl Grid {
     /// Adds a panel with two photographs beside it, or on a phone above it.
     ///
     /// * `aspect`: height over width of a photograph
-    /// * `tallest`: maximum height of the panel where the photographs are beside it
+    /// * `tallest`: maximum height of the panel if the photographs are beside it
     pub(crate) fn beside_photographs(&mut self, aspect: f64, tallest: f64) -> (Rect, [Rect; 2]) {
         if is_narrow(self.width) {
             let photographs = self.row([aspect; 2], PHONE / 2.0);
@@ -100,12 +102,12 @@ impl Grid {
         (panel, stack(column, [1.0; 2]))
     }
 
-    /// Adds two photographs and two smaller panels: on a broad page stacked beside the photographs,
+    /// Adds two photographs and two smaller panels: on a wide page stacked beside the photographs,
     /// otherwise in a low row below them.
     ///
     /// * `aspect`: height over width of a photograph
-    /// * `shares`: fractions of the smaller panels, of the height where beside and of the width
-    ///   where below
+    /// * `shares`: fractions of the smaller panels: of the height if beside, then of the width if
+    ///   below
     pub(crate) fn photographs_and_two(&mut self, aspect: f64, shares: [[f64; 2]; 2]) -> [Rect; 4] {
         const BESIDE: f64 = 404.0;
         const ABOVE: f64 = 254.0;
@@ -120,7 +122,7 @@ impl Grid {
         [first, second, left, right]
     }
 
-    /// Adds a full-width strip for a legend or a line of words.
+    /// Adds a full-width strip for a legend or a line of text.
     pub(crate) fn strip(&mut self, height: f64) -> Rect {
         let strip = Rect::new(0.0, self.bottom, self.width, height);
         self.bottom = strip.bottom();
@@ -129,7 +131,7 @@ impl Grid {
 
     /// Returns the layout of the picture with these panels.
     pub(crate) fn layout(self, panels: Vec<Panel>) -> Layout {
-        // Half of the lowest panel's border is outside of it.
+        // Half of the border of the lowest panel is outside of it.
         let height = self.bottom + 1.0;
         Layout {
             width: self.width,
@@ -171,18 +173,18 @@ pub(crate) fn title(canvas: &mut Canvas, rect: Rect, text: &str) {
     canvas.label(place, text, TextStyle::new(Role::Ink, TEXT).cased());
 }
 
-/// Draws the title line above a panel, in the first of these wordings, longest first, that fits.
+/// Draws the title line above a panel: the first of these texts, longest first, that fits.
 pub(crate) fn fitting_title(canvas: &mut Canvas, rect: Rect, wordings: &[&str]) {
     title(canvas, rect, fitting(rect.width, wordings));
 }
 
-/// Draws a panel's title, in the first of these wordings that fits, and its border.
+/// Draws a panel's border and title: the first of these texts that fits.
 pub(crate) fn open(canvas: &mut Canvas, panel: &Panel, wordings: &[&str]) {
     fitting_title(canvas, panel.rect, wordings);
     canvas.panel(panel.rect);
 }
 
-/// Opens panels as [`open`] does, each with its name and titles.
+/// Opens panels with [`open`], each given by its name and titles.
 pub(crate) fn open_all<'a, const N: usize>(
     canvas: &mut Canvas,
     layout: &'a Layout,
@@ -195,7 +197,7 @@ pub(crate) fn open_all<'a, const N: usize>(
     })
 }
 
-/// Returns the first of these wordings that fits the width, or else the last.
+/// Returns the first of these texts that fits the width, or else the last.
 pub(crate) fn fitting<'a>(width: f64, wordings: &[&'a str]) -> &'a str {
     let fits = |text: &&&str| text_width(text, TEXT) <= width;
     wordings

@@ -1,4 +1,4 @@
-//! Numbers as colors: cached maps, stripes for missing values, and the color bar.
+//! Color maps of numbers: cached maps, stripes for missing values, and the color bar.
 
 use crate::canvas::{Canvas, Stroke, TextStyle, text_width};
 use crate::contract::Rect;
@@ -9,11 +9,11 @@ use image::RgbImage;
 const STRIPE_PX: u32 = 6;
 /// Number of steps of a color bar.
 const NUM_STEPS: u32 = 40;
-/// Size of a legend's letters and swatches, CSS pixels.
+/// Size of a legend's text and swatches, CSS pixels.
 const TEXT: f64 = 12.0;
 const SWATCH: f64 = 14.0;
 
-/// Cached color maps of one answer.
+/// Cached color maps of one result.
 pub(crate) struct Heat<const N: usize = 1> {
     kept: Option<(u64, Theme, [RgbImage; N])>,
 }
@@ -25,7 +25,7 @@ impl<const N: usize> Default for Heat<N> {
 }
 
 impl<const N: usize> Heat<N> {
-    /// Returns the maps of this version and theme, calling `color` only if they are not cached.
+    /// Returns the maps for this version and theme, calling `color` only if they are not cached.
     pub(crate) fn maps(
         &mut self,
         version: u64,
@@ -54,7 +54,7 @@ pub(crate) fn nothing(theme: Theme, u: u32, v: u32) -> Rgb {
     theme.color(role)
 }
 
-/// Colors of signed numbers: warm where positive, cool where negative.
+/// Colors of signed numbers: warm for positive, cool for negative ones.
 pub(crate) struct Signed {
     zero: Rgb,
     warm: Rgb,
@@ -113,12 +113,12 @@ pub(crate) fn bar(
 pub(crate) enum Fill {
     /// A role's color with an opacity.
     Role(Role, f64),
-    /// The stripes of "no number".
+    /// Stripes, for a missing value.
     Stripes,
 }
 
-/// Draws labeled swatches in a row, `apart` CSS pixels apart; the position is the middle of the
-/// left edge.
+/// Draws labeled swatches in a row at intervals of `apart` CSS pixels; the position is the middle
+/// of the left edge.
 pub(crate) fn swatches(
     canvas: &mut Canvas,
     (mut x, y): (f64, f64),

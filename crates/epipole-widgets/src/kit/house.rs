@@ -1,4 +1,4 @@
-//! A wireframe house and the cameras around it: the ground truth.
+//! A wireframe house and the cameras around it, as ground truth.
 
 use epipole::Error;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform, look_at};
@@ -19,7 +19,7 @@ const DISTANCE: f64 = 2.6;
 /// Point that all cameras look at.
 const TARGET: [f64; 3] = [0.0, -0.15, 0.0];
 
-/// Width of the house, scene units; errors are given as fractions of it.
+/// Width of the house, scene units; errors are relative to it.
 pub(crate) const WIDTH: f64 = 1.6;
 
 /// Four corners on the ground, four under the eaves, two ends of the ridge, and a door; y is down.
@@ -39,7 +39,7 @@ const CORNERS: [[f64; 3]; 14] = [
     [0.42, -0.1, -0.5],
     [0.42, 0.4, -0.5],
 ];
-/// The end of the ridge whose feature the reader drags.
+/// Index of the ridge's end whose feature the reader drags.
 pub(crate) const MARK: usize = 9;
 
 /// Both end corners of each wire, and the number of points between them.
@@ -75,8 +75,7 @@ pub(crate) struct House {
 }
 
 impl House {
-    /// # Errors
-    /// Never for the constants above, which a test confirms.
+    /// # Errors Never for the constants above, as a test confirms.
     pub(crate) fn new() -> Result<Self, Error> {
         let mut points: Vec<Point3<f64>> = CORNERS.map(Point3::from).to_vec();
         let mut wires = Vec::new();
@@ -128,7 +127,7 @@ impl House {
         }
     }
 
-    /// Returns the true position of the dragged feature in the shown photograph, pixels.
+    /// Returns the true position of the dragged feature in the photograph shown, pixels.
     pub(crate) fn mark(&self) -> Point2<f64> {
         let seen = self.cameras[SHOWN].project(&self.points[MARK]);
         // The house is in front of every camera.

@@ -1,4 +1,4 @@
-//! Placement of labels beside marks so that they overlap nothing, where possible.
+//! Placement of labels beside marks, without overlaps if possible.
 
 use crate::canvas::{Align, Canvas, Place, TextStyle, text_width};
 use crate::contract::Rect;
@@ -7,7 +7,7 @@ use crate::theme::Role;
 /// Margin around a label, CSS pixels.
 const MARGIN: f64 = 3.0;
 
-/// The labels of one panel.
+/// Labels of one panel.
 pub(crate) struct Labels {
     bounds: Rect,
     taken: Vec<Rect>,
@@ -22,18 +22,18 @@ impl Labels {
         }
     }
 
-    /// Keeps labels away from a mark.
+    /// Keeps labels off a mark.
     pub(crate) fn keep_free(&mut self, center: Place, radius: f64) {
         let (x, y) = (center.0 - radius, center.1 - radius);
         self.taken.push(Rect::new(x, y, 2.0 * radius, 2.0 * radius));
     }
 
-    /// Keeps labels away from a rectangle.
+    /// Keeps labels off a rectangle.
     pub(crate) fn keep_rect_free(&mut self, rect: Rect) {
         self.taken.push(rect);
     }
 
-    /// Keeps labels away from the part of a line within the bounds.
+    /// Keeps labels off the part of a line within the bounds.
     pub(crate) fn keep_line_free(&mut self, from: Place, to: Place) {
         const STEP: f64 = 8.0;
         let length = libm::hypot(to.0 - from.0, to.1 - from.1);
@@ -50,9 +50,9 @@ impl Labels {
         }
     }
 
-    /// Draws a label at the first of some positions where it overlaps nothing, or else where it
-    /// overlaps least. The alignment of a position gives the label's start, middle or end, at half
-    /// its height.
+    /// Draws a label at the first of some positions without overlap, or else at the one with the
+    /// least. The alignment of a position refers to the label's start, middle or end, at half its
+    /// height.
     pub(crate) fn draw(
         &mut self,
         canvas: &mut Canvas,

@@ -1,4 +1,4 @@
-//! Legends of lines and markers, in several rows where needed.
+//! Legends of lines and markers, in several rows if needed.
 
 use crate::canvas::{Canvas, Shape, Stroke, TextStyle, text_width};
 use crate::contract::Layout;

@@ -1,5 +1,5 @@
-//! The virtual camera of a space: in CSS pixels for views, and in the panel's degrees for models
-//! whose objects are dragged in the space.
+//! Virtual camera of a 3D view: in CSS pixels for views, and in the panel's degrees for models
+//! whose objects can be dragged in 3D.
 
 use crate::kit::orbit::{HALF_RISE_DEG, HALF_TURN_DEG, Orbit};
 use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
@@ -21,7 +21,7 @@ pub(crate) struct Subject {
     pub(crate) radius: f64,
 }
 
-/// A virtual camera on a scene.
+/// A virtual camera for a scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lens {
     pub(crate) eye: PosedCamera,
@@ -32,10 +32,11 @@ pub(crate) struct Lens {
 }
 
 impl Lens {
-    /// For a panel of this size; `None` if there is no room, or the subject is nowhere.
-    /// Creates the camera for a panel; `None` if it has no size, or the subject is not finite.
+    /// Creates the camera for a panel; `None` if the panel has no size, or the subject is not
+    /// finite.
+    ///
     /// * `size`: width and height of the panel, in any unit
-    /// * `units`: result units per unit of `size`, across and down
+    /// * `units`: result units per unit of `size`, horizontally and vertically
     /// * `middle`: position of the scene center, in result units
     pub(crate) fn new(
         (width, height): (f64, f64),
@@ -76,7 +77,7 @@ impl Lens {
         Self::new((1.0, aspect), units, orbit.middle(), orbit, subject)
     }
 
-    /// Projects a point of the eye's frame; returns its position and depth, `None` if it is nearer
+    /// Projects a point of the eye's frame. Returns its position and depth; `None` if it is nearer
     /// than the near plane.
     pub(crate) fn shown(&self, in_eye: &Point3<f64>) -> Option<((f64, f64), f64)> {
         if in_eye.z.is_nan() || in_eye.z < self.nearest {
@@ -101,8 +102,8 @@ impl Lens {
         (along.is_finite() && along > 0.0).then(|| eye + ray * along)
     }
 
-    /// Returns the parameter of the point on a line that is nearest to the viewing ray of a
-    /// position: `from + along · towards`. `None` if the eye looks along the line.
+    /// Returns the parameter of the point on a line that is closest to the viewing ray of a
+    /// position: `from + along · towards`. `None` if the line is viewed end-on.
     pub(crate) fn along(
         &self,
         (u, v): (f64, f64),
@@ -110,8 +111,8 @@ impl Lens {
         towards: &Vector3<f64>,
     ) -> Option<f64> {
         let (eye, ray) = self.ray((u, v));
-        // In the span of both directions and normal to the viewing ray, so normal to the shortest
-        // segment.
+        // In the span of both directions and perpendicular to the viewing ray, hence to the
+        // shortest segment.
         let square = ray.cross(towards).cross(&ray);
         let along = square.dot(&(eye - from)) / square.dot(towards);
         along.is_finite().then_some(along)

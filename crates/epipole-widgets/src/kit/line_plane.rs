@@ -1,4 +1,4 @@
-//! The plane of points near a line: its panel, lines in it, and the band around one.
+//! The plane of points near a line: its panel, lines, and the band around one.
 
 use crate::canvas::{Canvas, Shape, Stroke};
 use crate::contract::{Panel, Rect};
@@ -16,7 +16,7 @@ pub(crate) fn panel(id: &'static str, rect: Rect) -> Panel {
     Panel::new(id, rect, [0.0, WIDTH_PX], [0.0, HEIGHT_PX])
 }
 
-/// Returns two points of a line beyond the panel.
+/// Returns two points of a line outside of the panel.
 fn ends(plane: &Panel, line: &Line2, offset_px: f64) -> [(f64, f64); 2] {
     let foot = (
         -(line.c - offset_px) * line.a,

@@ -10,7 +10,7 @@ use nalgebra::Point2;
 pub(crate) const WIDTH_PX: f64 = 640.0;
 /// Height of the plane of the points, pixels.
 pub(crate) const HEIGHT_PX: f64 = 400.0;
-/// Digits of point coordinates: tenths of a pixel.
+/// Decimals of point coordinates: tenths of a pixel.
 pub(crate) const DIGITS: usize = 1;
 /// Standard deviation of an inlier's distance from the hidden line, pixels.
 const NOISE_PX: f64 = 4.0;
@@ -29,10 +29,10 @@ pub(crate) const COUNT: Slider = Slider::new("points", "Number of points")
 /// Random points around a hidden line.
 pub(crate) struct Scatter {
     pub(crate) truth: Line2,
-    /// Inliers first.
+    /// Points, inliers first.
     pub(crate) points: Vec<Point2<f64>>,
     pub(crate) num_outliers: usize,
-    /// Region of about half of the outliers.
+    /// Region that contains about half of the outliers.
     pub(crate) region: Rect,
 }
 
@@ -44,11 +44,11 @@ impl Scatter {
     }
 }
 
-/// The region as fractions of the plane: left and upper edge, width and height.
+/// The region relative to the plane: left and upper edge, width and height.
 const REGION: [f64; 4] = [0.55, 0.04, 0.42, 0.3];
 
 /// Draws a hidden line and points. About half of the outliers are anywhere, the others in one
-/// region on one side, as from a repeated pattern.
+/// region on one side, like a repeated pattern.
 ///
 /// * `outlier_ratio`: outliers among `count` points, 0 to 1
 pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
@@ -92,7 +92,7 @@ pub(crate) fn scatter(seed: u64, count: usize, outlier_ratio: f64) -> Scatter {
         };
         places.push(place(u * WIDTH_PX, v * HEIGHT_PX));
     }
-    // Put the region on the side away from the line.
+    // Moves the region to the side away from the line.
     let top = if sin < 0.0 { 1.0 - upper - high } else { upper };
     Scatter {
         truth,
@@ -123,8 +123,8 @@ impl Consensus {
         }
     }
 
-    /// Refits the line to its inliers and keeps the votes. The sample's line stays if the inliers
-    /// determine none.
+    /// Refits the line to its inliers and keeps the votes. Keeps the sample's line if the inliers
+    /// do not determine one.
     pub(crate) fn refitted(self, places: &[Point2<f64>]) -> Self {
         let voters = inliers_of(places, &self.is_inlier);
         Self {

@@ -1,4 +1,4 @@
-//! Matches of the still life's two photographs: exact from the scene geometry, then noisy.
+//! Matches of the still life's two photographs: exact from the scene geometry, or noisy.
 
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_SIZE, PHOTO_WIDTH, Seen, still_life_pair};
 use epipole::camera::PosedCamera;
@@ -14,9 +14,9 @@ pub(crate) const MAX_USED: usize = 60;
 const NUM_HELD_OUT: usize = 100;
 /// Maximum number of pixels tried in photograph 1.
 const MAX_TRIED: usize = 4000;
-/// Smallest distance between matches for estimating F, pixels.
+/// Minimum distance between matches for estimating F, pixels.
 const APART_PX: f64 = 24.0;
-/// Smallest distance of a match from the photograph's edge, pixels.
+/// Minimum distance of a match from the photograph's edge, pixels.
 const MARGIN_PX: f64 = 8.0;
 
 /// Pose of the second camera: meters to the right, meters forward, degrees to the left.
@@ -60,7 +60,7 @@ pub(crate) fn mean_distance_px(fundamental: &Matrix3<f64>, matches: &[Match]) ->
     distances.iter().sum::<f64>() / distances.len().max(1) as f64
 }
 
-/// Cache size in seeds: the first ones, which fresh figures use, and the last one.
+/// Cache size in seeds: the first ones, used by new figures, and the last one.
 const MOST_KEPT: usize = 8;
 
 thread_local! {
@@ -77,7 +77,7 @@ pub(crate) struct Matches {
 
 impl Matches {
     /// Draws pixels of photograph 1 and their matches. The result is cached, since after every
-    /// change the state is compared with a fresh figure's.
+    /// change the state is compared with that of a new figure.
     pub(crate) fn draw(seed: u64) -> Rc<Self> {
         KEPT.with_borrow_mut(|kept| {
             if let Some((_, known)) = kept.iter().find(|(of, _)| *of == seed) {

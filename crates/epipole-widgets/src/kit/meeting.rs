@@ -1,10 +1,10 @@
-//! The point where epipolar lines meet, exactly or nearly so.
+//! Point where epipolar lines intersect, exactly or nearly.
 
 use crate::kit::matches::line2;
 use epipole::math::Line2;
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2};
 
-/// Mean distance below which the lines count as meeting, pixels.
+/// Mean distance below which the lines intersect in a point, pixels.
 const MEETS_PX: f64 = 1e-6;
 
 /// The least-squares intersection of many lines.
@@ -41,13 +41,12 @@ impl Meeting {
         })
     }
 
-    /// Returns whether the lines have a common point, up to rounding.
+    /// Returns whether the lines intersect in a point, up to rounding.
     pub(crate) fn is_exact(&self) -> bool {
         self.miss_px < MEETS_PX
     }
 
-    /// Returns the mean distance of the lines from their intersection, pixels; 0 if only rounding
-    /// is left.
+    /// Returns the mean distance of the lines from their intersection, pixels; 0 up to rounding.
     pub(crate) fn shown_px(self) -> f64 {
         if self.is_exact() { 0.0 } else { self.miss_px }
     }
@@ -59,7 +58,7 @@ mod tests {
 
     #[test]
     fn parallel_lines_meet_nowhere() {
-        // For a step to the right the lines are rows.
+        // For a sideways translation the lines are rows.
         let fundamental = Matrix3::new(0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
         let pixels = [(10.0, 20.0), (300.0, 50.0), (90.0, 400.0)];
         let pixels = pixels.map(|(u, v)| Point2::new(u, v));

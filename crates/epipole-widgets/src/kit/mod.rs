@@ -2,34 +2,35 @@
 //!
 //! | module | purpose |
 //! |---|---|
-//! | [`question`] | a computation that takes long: asked, carried out elsewhere, answered |
-//! | [`changed`] | a photograph that is turned, scaled and lit otherwise, around a place |
-//! | [`patch`] | what the windows of features show, for comparison |
-//! | [`picture`] | photographs of the reader's own, and how photographs travel to a worker |
+//! | [`question`] | a long computation: requested, run elsewhere, answered |
+//! | [`changed`] | a photograph that is rotated, scaled and changed in brightness |
+//! | [`patch`] | windows of features, for comparison |
+//! | [`picture`] | photographs of the reader, and serialization of photographs |
 //! | [`photo`], [`scenes`] | rendered photographs of the book's scenes |
 //! | [`rectified`] | a stereo pair of the still life with its true disparities |
 //! | [`sequence`] | frames of a camera that moves around the still life |
 //! | [`features`] | two photographs of the still life with their features |
-//! | [`probe`] | a thing that the reader moves, over a photograph or over a plan |
+//! | [`probe`] | a handle over a photograph or a top view |
 //! | [`points`] | points that the reader drags, adds and removes |
-//! | [`running`], [`timeline`] | a loop that runs, steps and starts over; frames of a video |
-//! | [`matches`], [`meeting`] | exact and noisy matches of the still life; where lines meet |
+//! | [`running`], [`timeline`] | a loop that runs, steps and restarts; frames of a video |
+//! | [`matches`], [`meeting`] | exact and noisy matches of the still life; intersections of lines |
 //! | [`line_points`], [`line_plane`] | points near a hidden line, outliers, votes |
-//! | [`samples`], [`tally`] | the RANSAC loop, sample by sample; of points near a line, with all votes |
-//! | [`orbit`], [`lens`], [`space`] | things in three dimensions, and where the reader looks from |
-//! | [`standing`] | photographs that stand among them |
-//! | [`reconstruction`] | two photographs to cameras and points in space, stage by stage |
+//! | [`samples`], [`tally`] | the RANSAC loop by samples; the same for points near a line, with all
+//! votes |
+//! | [`orbit`], [`lens`], [`space`] | 3D views and their viewpoint |
+//! | [`standing`] | photographs in 3D views |
+//! | [`reconstruction`] | from two photographs to cameras and points in 3D, stage by stage |
 //! | [`geometry`] | the epipolar geometry of two cameras |
-//! | [`grid`] | titled panels in rows, one breakpoint, notices |
+//! | [`grid`] | titled panels in rows, breakpoints, notices |
 //! | [`plot`] | axes, linear or logarithmic, and curves |
-//! | [`plan`] | a view from above |
-//! | [`cells`] | numbers in cells, to be read |
-//! | [`heat`], [`terrain`] | numbers as colors, and as a landscape |
-//! | [`house`] | a house of wire with cameras around it |
+//! | [`plan`] | a top view |
+//! | [`cells`] | cells with readable numbers |
+//! | [`heat`], [`terrain`] | numbers as colors, and as a terrain |
+//! | [`house`] | a wireframe house with cameras around it |
 //! | [`pair`] | two photographs of the still life, epipolar lines |
 //! | [`corners`] | the corners of a rectangle, dragged in a photograph |
 //! | [`warped`] | a photograph through a homography |
-//! | [`labels`], [`legend`], [`words`] | words beside marks, what marks mean, numbers in words |
+//! | [`labels`], [`legend`], [`words`] | labels of marks, legends, formatting of numbers |
 
 pub(crate) mod cells;
 pub(crate) mod changed;

@@ -1,9 +1,9 @@
-//! Viewpoint of a three-dimensional panel: state, handles and words.
+//! Viewpoint of a three-dimensional panel: state, handles and description.
 //!
 //! A model holds an [`Orbit`] and appends its controls and handles to its own. The world of a panel
-//! of [`SPACE`] is in degrees: across, the rotation of the scene about its vertical axis; down, the
-//! elevation of the reader above it. So a drag to the right turns the front of the scene to the
-//! right, and a drag downwards turns it down.
+//! of [`SPACE`] is in degrees: horizontally the rotation of the scene about its vertical axis,
+//! vertically the elevation of the reader above it. A drag to the right therefore rotates the front
+//! of the scene to the right, and a drag downwards tilts it down.
 
 use crate::contract::{
     Button, ButtonRole, Control, Event, Handle, Knob, Panel, Problem, Rect, Settings, Slider,
@@ -33,7 +33,7 @@ const RECENTER: Button = Button::new("recenter", "Reset viewpoint", ButtonRole::
 pub(crate) const HALF_TURN_DEG: f64 = 180.0;
 /// Half of the panel's height, degrees.
 pub(crate) const HALF_RISE_DEG: f64 = 90.0;
-/// Maximum elevation, degrees; beyond it the scene's vertical axis points at the reader.
+/// Maximum elevation, degrees; beyond it the scene's vertical axis would point at the reader.
 const HIGHEST_DEG: f64 = 85.0;
 
 /// A viewing direction, a zoom, and the position of the scene's center in the panel.
@@ -46,7 +46,8 @@ pub(crate) struct Orbit {
 }
 
 impl Orbit {
-    /// Creates a viewpoint with the scene turned by `turn_deg`, seen from `rise_deg` above.
+    /// Creates a viewpoint with the scene rotated by `turn_deg`, seen from an elevation of
+    /// `rise_deg`.
     pub(crate) fn new(turn_deg: f64, rise_deg: f64) -> Self {
         let home = (turn_deg, rise_deg);
         Self {
@@ -84,7 +85,7 @@ impl Orbit {
         self.panned
     }
 
-    /// Creates the panel of the space.
+    /// Creates the panel of the 3D view.
     pub(crate) fn panel(rect: Rect) -> Panel {
         let axis = |half: f64| [-half, half];
         Panel::new(SPACE.panel, rect, axis(HALF_TURN_DEG), axis(HALF_RISE_DEG))
@@ -97,7 +98,7 @@ impl Orbit {
         controls
     }
 
-    /// Returns the two handles: one turns the scene, one moves it across the panel.
+    /// Returns the two handles: one rotates the scene, one pans it.
     pub(crate) fn handles(&self) -> [Handle; 2] {
         let handle = |id, label, told, place, half_y: f64| {
             let ranges = [HALF_TURN_DEG, half_y].map(|half| [-half, half]);
@@ -115,7 +116,7 @@ impl Orbit {
         ]
     }
 
-    /// Returns the viewing direction, such as "35° to the left, 20° above".
+    /// Describes the viewing direction, such as "35° to the left, 20° above".
     pub(crate) fn words(&self) -> String {
         let (turn, rise) = self.turned;
         let words = |value: f64, positive: &str, negative: &str, zero: &str| match value {
@@ -132,15 +133,14 @@ impl Orbit {
         )
     }
 
-    /// Returns the viewing direction and zoom, such as "35° to the left, 20° above, 1.0 ×".
+    /// Describes the viewing direction and zoom, such as "35° to the left, 20° above, 1.0 ×".
     pub(crate) fn seen_from(&self) -> String {
         format!("{}, {} ×", self.words(), format_number(self.zoom(), 1))
     }
 
-    /// Applies an event of the space; returns false for other events.
+    /// Applies an event of the 3D view; returns false for other events.
     ///
-    /// # Errors
-    /// A value that the zoom does not accept.
+    /// # Errors For an invalid value of the zoom.
     pub(crate) fn update(&mut self, event: &Event) -> Result<bool, Problem> {
         match event {
             Event::HandleMoved { id, x, y } if id == SPACE.orbit => self.turned = (*x, *y),

@@ -14,7 +14,7 @@ use epipole::math::Line2;
 use image::RgbImage;
 use nalgebra::{Point2, Vector2};
 
-/// Hue and shape of each of two cameras, in photographs, in plans and in spaces.
+/// Hue and shape of each of two cameras, in photographs, top views and 3D views.
 pub(crate) const CAMERAS: [(Role, Shape); 2] = [
     (Role::Series(0), Shape::Disk),
     (Role::Series(1), Shape::Square),
@@ -69,14 +69,14 @@ impl Photos {
         }
     }
 
-    /// As [`Photo::prepare`].
+    /// See [`Photo::prepare`].
     pub(crate) fn prepare(&mut self, cameras: &[PosedCamera; 2]) -> bool {
         let scene = still_life();
         let mut photos = self.0.iter_mut().zip(cameras);
         photos.any(|(photo, camera)| photo.prepare(&scene, camera, [0.0; 3], PHOTO_SIZE))
     }
 
-    /// As [`Photo::refine`].
+    /// See [`Photo::refine`].
     pub(crate) fn refine(&mut self, cameras: &[PosedCamera; 2]) -> bool {
         let scene = still_life();
         let mut photos = self.0.iter_mut().zip(cameras);
@@ -84,7 +84,7 @@ impl Photos {
     }
 }
 
-/// Picks at most `most` of many, evenly, so that they do not hide the photographs.
+/// Picks at most `most` of many, evenly spaced, to keep the photographs visible.
 pub(crate) fn spread<T>(all: &[T], most: usize) -> impl Iterator<Item = &T> {
     let stride = all.len().div_ceil(most.max(1)).max(1);
     all.iter().step_by(stride)
@@ -163,7 +163,7 @@ pub(crate) fn draw_epipole(
         Epipole::AtInfinity(direction) => {
             let center = rect.center();
             for sign in [-1.0, 1.0] {
-                // Far beyond the border, along the line through the middle.
+                // Far beyond the border, along the line through the center.
                 let far = 1e3 * (rect.width + rect.height) * sign;
                 let (x, y) = (center.0 + far * direction.x, center.1 + far * direction.y);
                 let to_border = |start: f64, size: f64| start.abs() / (size / 2.0).max(1e-9);

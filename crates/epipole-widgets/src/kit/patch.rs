@@ -7,7 +7,7 @@ use epipole::feature::Keypoint;
 use image::{Rgb, RgbImage};
 use serde::{Deserialize, Serialize};
 
-/// Side of a descriptor's window, in units of the feature's scale σ: four cells of three.
+/// Side of a descriptor's window, in units of the feature's scale σ: four cells of width 3.
 pub(crate) const WINDOW_SIGMAS: f64 = 12.0;
 
 /// Position, scale and orientation of a feature.
@@ -37,7 +37,7 @@ impl Spot {
     }
 
     /// Returns the pixel at an offset in the feature's own frame, in half windows along its
-    /// orientation and across.
+    /// orientation and perpendicular to it.
     pub(crate) fn at(&self, along: f64, across: f64) -> (f64, f64) {
         let (sin, cos) = (libm::sin(self.angle_rad), libm::cos(self.angle_rad));
         let half = self.half_px();
@@ -47,10 +47,10 @@ impl Spot {
         )
     }
 
-    /// Returns whether its values can be drawn.
+    /// Returns whether its values are valid for drawing.
     pub(crate) fn is_sound(&self) -> bool {
         let [u, v] = self.place;
-        // Written so that NaN fails.
+        // Written so that NaN is rejected.
         [u, v, self.scale_px, self.angle_rad]
             .iter()
             .all(|x| x.abs() < 1e5)
@@ -67,7 +67,7 @@ impl Spot {
     }
 }
 
-/// Interpolates the color bilinearly; the border repeats the edge pixel.
+/// Interpolates the color bilinearly; edge pixels are repeated beyond the border.
 fn bilinear(photograph: &RgbImage, (u, v): (f64, f64)) -> Rgb<u8> {
     let (width, height) = photograph.dimensions();
     let keep = |x: f64, size: u32| x.clamp(0.0, f64::from(size - 1));
@@ -106,7 +106,7 @@ impl Cuts {
     ) {
         let known = |(other, of, _): &(Spot, u64, RgbImage)| other == spot && *of == version;
         let index = self.kept.iter().position(known).unwrap_or_else(|| {
-            // A little more than a figure shows at a time.
+            // Slightly more than a figure shows at a time.
             if self.kept.len() >= 40 {
                 self.kept.remove(0);
             }
@@ -118,7 +118,7 @@ impl Cuts {
     }
 }
 
-/// Outlines the window of a feature's descriptor, with a hand in its orientation.
+/// Outlines the window of a feature's descriptor, with a line in its orientation.
 pub(crate) fn draw_window(canvas: &mut Canvas, panel: &Panel, spot: &Spot, stroke: Stroke) {
     let at = |along, across| panel.canvas_from_world(spot.at(along, across));
     let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_patch_is_turned_with_its_feature() {
-        // Brightness increases to the right, redness downwards.
+        // Green increases to the right, red downwards.
         let photograph = RgbImage::from_fn(60, 60, |u, v| Rgb([4 * v as u8, 4 * u as u8, 0]));
         let spot = Spot {
             place: [30.0, 30.0],
@@ -143,7 +143,7 @@ mod tests {
         };
         assert_eq!(spot.half_px(), 12.0);
         let cut = spot.cut(&photograph, 6);
-        // Its orientation is down, so what is below appears on the right, 2 · 12 · 5/6 pixels
+        // Its orientation is down, so the pixels below appear on the right, 2 · 12 · 5/6 pixels
         // apart.
         let (left, right) = (cut.get_pixel(0, 3).0, cut.get_pixel(5, 3).0);
         assert_eq!(right[0] - left[0], 80);

@@ -1,11 +1,11 @@
-//! Rendered photographs for views: a preview at once, the sharp picture in slices.
+//! Rendered photographs for views: an immediate preview, and the sharp picture in slices.
 //!
-//! A sharp photograph takes longer than a frame of a drag. Until it is ready, the last sharp
+//! A sharp photograph takes longer than a frame during a drag. Until it is ready, the last sharp
 //! photograph is reprojected to the current camera by its depth map, and a small draft fills the
 //! holes; before the first sharp photograph the draft fills everything. Each call of
 //! [`View::refine`](crate::contract::View::refine) then prepares the scene or renders some rows of
-//! the next sharp photograph, shown when complete. Slices have fixed sizes, not times, so that
-//! pictures are reproducible.
+//! the next sharp photograph, shown when complete. Slices have fixed sizes rather than durations,
+//! so that pictures are reproducible.
 
 use epipole::Error;
 use epipole::camera::{Camera, PosedCamera};
@@ -25,14 +25,14 @@ type Part = [Range<u32>; 2];
 /// One photograph of a scene, kept until the camera or the scene changes.
 #[derive(Default)]
 pub(crate) struct Photo {
-    /// Last completed photograph, of this camera or another.
+    /// Last completed photograph, of the current camera or another.
     sharp: Option<Shot>,
     /// Photograph in progress.
     growing: Option<Shot>,
     num_rows_done: u32,
-    /// Draft shown until a sharp photograph is there.
+    /// Draft shown until a sharp photograph is available.
     draft: Option<Photograph>,
-    /// Camera and size of the draft if it is complete, and its pixels of movable things.
+    /// Camera and size of the draft if it is complete, and its pixels of movable objects.
     drafted: Option<(PosedCamera, (u32, u32), Part)>,
     meanwhile: Reprojected,
     shown: Option<(PosedCamera, [f64; 3])>,
@@ -48,7 +48,7 @@ pub(crate) type Slice = fn(&mut Photo, &Scene, &PosedCamera, [f64; 3], (u32, u32
 /// A photograph with its camera and arrangement.
 struct Shot {
     camera: PosedCamera,
-    /// Positions of the scene's movable things, in the figure's own numbers.
+    /// Positions of the scene's movable objects, as defined by the figure.
     arrangement: [f64; 3],
     photograph: Photograph,
 }
@@ -59,14 +59,14 @@ impl Shot {
     }
 }
 
-/// Returns an empty photograph, in the memory of an old one of the same size.
+/// Returns an empty photograph that reuses the memory of an old one of the same size.
 fn blank(old: Option<Photograph>, (width, height): (u32, u32)) -> Photograph {
     old.filter(|photograph| photograph.image.dimensions() == (width, height))
         .unwrap_or_else(|| Photograph::blank(width, height))
 }
 
 impl Photo {
-    /// Creates a photograph of a scene whose moving part can be reprojected. Without `follow`,
+    /// Creates a photograph of a scene whose movable object can be reprojected. Without `follow`,
     /// sharp photographs of other arrangements are not reused.
     pub(crate) fn following(follow: Follow) -> Self {
         Self {
@@ -80,13 +80,12 @@ impl Photo {
         (self.sharp, self.growing, self.shown) = (None, None, None);
     }
 
-    /// Returns the best picture available now.
+    /// Returns the best picture currently available.
     ///
     /// * `camera`: for a full picture of `width × height` pixels
-    /// * `arrangement`: positions of the scene's movable things; any constant if none move
+    /// * `arrangement`: positions of the scene's movable objects; any constant if there are none
     ///
-    /// # Errors
-    /// As [`Scene::render`]: no picture can be taken from the camera's position.
+    /// # Errors As [`Scene::render`]: no picture can be rendered at the camera's position.
     pub(crate) fn picture(
         &mut self,
         scene: &Scene,
@@ -129,7 +128,7 @@ impl Photo {
             if let Some((from, size, before)) = self.drafted.take()
                 && (from, size) == (small_camera, small_size)
             {
-                // Pixels without movable things are unchanged.
+                // Pixels without movable objects are unchanged.
                 let parts = [&before, &moving];
                 for (place, wanted) in (0..).zip(&mut wanted) {
                     let (u, v) = (place % size.0, place / size.0);
@@ -145,8 +144,8 @@ impl Photo {
         Ok(self.meanwhile.image())
     }
 
-    /// Does the next slice of work towards the first picture, first the textures for drafts, then
-    /// the draft; false when a picture is there or none can be made.
+    /// Does the next slice of work towards the first picture: first the textures for drafts, then
+    /// the draft; false when a picture is available or none can be rendered.
     ///
     /// Arguments as for [`Photo::picture`].
     pub(crate) fn prepare(
@@ -161,8 +160,8 @@ impl Photo {
             || (!is_there && self.picture(scene, camera, arrangement, size).is_ok())
     }
 
-    /// Does the next slice of work towards a sharp picture; false when it is there or cannot be
-    /// made.
+    /// Does the next slice of work towards a sharp picture; false when it is available or cannot be
+    /// rendered.
     ///
     /// Arguments as for [`Photo::picture`].
     pub(crate) fn refine(

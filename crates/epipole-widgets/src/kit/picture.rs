@@ -1,4 +1,4 @@
-//! Photographs: their serialization for workers, and the reader's own.
+//! Photographs: serialization for workers, and photographs of the reader.
 
 use crate::contract::{PhotoSlot, Problem};
 use epipole::imaging::{BT601_WEIGHTS, GrayImage32, rgb_to_gray_f32};
@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::rc::Rc;
 
 /// A photograph shared by a model, its question and its answer without copies. Serialized as width,
-/// height and bytes; a mismatch is an error.
+/// height and bytes; inconsistent sizes are an error.
 #[derive(Debug, Clone)]
 pub(crate) struct Picture(Rc<RgbImage>);
 
@@ -41,7 +41,7 @@ pub(crate) fn gray_levels(image: &RgbImage) -> GrayImage32 {
     levels
 }
 
-/// Bytes serialized as one piece, ten times as fast as one by one.
+/// Bytes serialized in one piece, ten times as fast as one by one.
 struct Bytes<'a>(&'a [u8]);
 
 impl Serialize for Bytes<'_> {
@@ -88,7 +88,7 @@ pub(crate) mod floats {
     }
 }
 
-/// Creates the slot of one photograph of the reader's own.
+/// Creates the slot for one photograph of the reader.
 pub(crate) const fn slot(max_side_px: u32) -> PhotoSlot {
     PhotoSlot {
         id: "photo",
@@ -113,7 +113,7 @@ pub(crate) const fn pair_slots(max_side_px: u32) -> [PhotoSlot; 2] {
     ]
 }
 
-/// The reader's own photographs, one for each slot of a figure.
+/// Photographs of the reader, one for each slot of a figure.
 pub(crate) struct Own<const N: usize> {
     slots: &'static [PhotoSlot],
     min_side_px: u32,
@@ -123,7 +123,7 @@ pub(crate) struct Own<const N: usize> {
 impl<const N: usize> Own<N> {
     /// Creates empty slots.
     ///
-    /// * `slots`: `N` of them
+    /// * `slots`: `N` slots
     /// * `min_side_px`: smallest accepted side, pixels
     pub(crate) fn new(slots: &'static [PhotoSlot], min_side_px: u32) -> Self {
         Self {
@@ -135,8 +135,7 @@ impl<const N: usize> Own<N> {
 
     /// Takes a photograph.
     ///
-    /// # Errors
-    /// A sentence if it is too small; nothing changes then.
+    /// # Errors A message if it is too small; the state is then unchanged.
     pub(crate) fn take(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         let (width, height) = photo.dimensions();
         if width.min(height) < self.min_side_px {
@@ -167,7 +166,7 @@ impl<const N: usize> Own<N> {
         all.try_into().ok()
     }
 
-    /// Names the photographs that the reader has still to choose, as a sentence.
+    /// Names the photographs that the reader has yet to choose, as a sentence.
     pub(crate) fn wanted(&self) -> String {
         let missing = self.pictures.iter().position(Option::is_none);
         let present = self.pictures.iter().position(Option::is_some);

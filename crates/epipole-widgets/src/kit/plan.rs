@@ -1,4 +1,4 @@
-//! A view from above: x to the right, z away from the reader, in meters or scene units.
+//! A top view: x to the right, z away from the reader, in meters or scene units.
 
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Axis, Panel, Rect, format_number};
@@ -7,14 +7,14 @@ use crate::kit::labels::Labels;
 use crate::theme::Role;
 use nalgebra::{Point2, Vector2};
 
-/// Minimum length of a rule, CSS pixels.
+/// Minimum length of a scale bar, CSS pixels.
 const RULE: f64 = 36.0;
 /// Minimum spacing of grid lines, CSS pixels.
 const SPACING: f64 = 26.0;
 
 /// Creates a panel around a position, with one scale for both directions.
 ///
-/// * `middle`: (x, z) in the middle of the panel
+/// * `middle`: (x, z) at the center of the panel
 /// * `half_depth`: half of the visible range along z
 pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth: f64) -> Panel {
     let half_width = half_depth * rect.width / rect.height.max(1e-9);
@@ -23,7 +23,7 @@ pub(crate) fn panel(id: &'static str, rect: Rect, middle: (f64, f64), half_depth
     Panel::new(id, rect, across, away)
 }
 
-/// Creates a panel that shows these ranges with `room` around them, with one scale for both
+/// Creates a panel that shows these ranges with a margin of `room`, with one scale for both
 /// directions.
 pub(crate) fn panel_of(id: &'static str, rect: Rect, [x, z]: [[f64; 2]; 2], room: f64) -> Panel {
     let middle = |[low, high]: [f64; 2]| (low + high) / 2.0;
@@ -32,7 +32,7 @@ pub(crate) fn panel_of(id: &'static str, rect: Rect, [x, z]: [[f64; 2]; 2], room
     panel(id, rect, (middle(x), middle(z)), half_depth)
 }
 
-/// A camera seen from above.
+/// A camera in a top view.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlanCamera {
     /// Center, (x, z).
@@ -89,7 +89,7 @@ impl PlanCamera {
 
 impl PlanCamera {
     /// Draws the camera with its field of view, its image plane `depth` in front of it, a viewing
-    /// ray with its pixel, and its name at the side of the center.
+    /// ray with its pixel, and its name beside the center.
     pub(crate) fn draw_sight(
         &self,
         canvas: &mut Canvas,
@@ -127,7 +127,7 @@ impl PlanCamera {
     }
 }
 
-/// Draws a ray from a point to beyond the edge of the panel.
+/// Draws a ray from a point to outside of the panel.
 pub(crate) fn draw_ray(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -166,7 +166,7 @@ pub(crate) fn draw_distances(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     draw_numbers(canvas, panel, unit);
 }
 
-/// Draws only the numbers of [`draw_distances`], again above a ray that would cross them.
+/// Draws only the numbers of [`draw_distances`] once more, above a ray that would cross them.
 pub(crate) fn draw_numbers(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     let (spacing, distances) = round_distances(panel);
     let digits = if spacing < 1.0 { 1 } else { 0 };
@@ -181,7 +181,7 @@ pub(crate) fn draw_numbers(canvas: &mut Canvas, panel: &Panel, unit: &str) {
     }
 }
 
-/// Returns the spacing and the round distances within a plan.
+/// Returns the spacing and the round distances within a top view.
 fn round_distances(panel: &Panel) -> (f64, impl Iterator<Item = f64>) {
     let (near, far) = (panel.y_axis.end, panel.y_axis.start);
     let pixels = panel.rect.height / (far - near).abs().max(1e-9);
@@ -193,7 +193,7 @@ fn round_distances(panel: &Panel) -> (f64, impl Iterator<Item = f64>) {
     (spacing, distances)
 }
 
-/// Draws a rule of a round length with its words, at the lower left.
+/// Draws a scale bar of a round length with its label, at the lower left.
 pub(crate) fn draw_rule(canvas: &mut Canvas, panel: &Panel, words: impl Fn(f64) -> String) {
     let length = round_length(RULE / panel.scale_x());
     let left: Place = (panel.rect.x + 12.0, panel.rect.bottom() - 12.0);
@@ -255,7 +255,7 @@ mod tests {
         };
         let middle = camera.on_image(0.0, 2.0);
         assert!((middle - Point2::new(3.0, 0.0)).norm() < 1e-12);
-        // Its right end is nearer to the reader.
+        // Its right end is closer to the reader.
         let right = camera.on_image(1.0, 2.0);
         assert!((right - Point2::new(3.0, -1.0)).norm() < 1e-12);
     }

@@ -12,11 +12,11 @@ pub(crate) struct Numbered {
     pub(crate) place: Point2<f64>,
 }
 
-/// The points. The handle of number 3 is "p3".
+/// Numbered points. The handle of number 3 is "p3".
 pub(crate) struct Points {
     /// Template of the handles; "#" in its label is replaced by the number.
     kind: Probe,
-    /// Minimum number of points that remain.
+    /// Minimum number of points.
     fewest: usize,
     /// Points by number.
     points: Vec<Numbered>,
@@ -25,7 +25,7 @@ pub(crate) struct Points {
 impl Points {
     /// Creates points numbered from 1.
     ///
-    /// * `fewest`: minimum number of points that remain
+    /// * `fewest`: minimum number of points
     pub(crate) fn new(
         kind: Probe,
         fewest: usize,
@@ -75,7 +75,7 @@ impl Points {
         self.points.iter().map(|point| self.handle(point)).collect()
     }
 
-    /// Moves the point of this number to a position, clamped to its range, or adds it.
+    /// Moves the point with this number to a position, clamped to its range, or adds it.
     pub(crate) fn put(&mut self, number: usize, x: f64, y: f64) {
         let Some((x, y)) = self.kind.handle().admit(x, y) else {
             return;
@@ -106,7 +106,7 @@ impl Points {
     }
 }
 
-/// Returns the number of a handle, such as 3 of "p3".
+/// Parses the number of a handle, such as 3 of "p3".
 pub(crate) fn number_of(id: &str) -> Option<usize> {
     let number: usize = id.strip_prefix('p')?.parse().ok()?;
     (id == format!("p{number}")).then_some(number)

@@ -1,4 +1,4 @@
-//! A handle that the reader moves over a photograph, a plan or any other panel.
+//! A handle that the reader moves over a photograph, a top view or any other panel.
 //!
 //! A figure declares it like a slider:
 //!
@@ -25,7 +25,7 @@ pub(crate) struct Probe {
     words: fn((f64, f64)) -> String,
 }
 
-/// Step of an arrow key on a plan, meters, and digits of the position.
+/// Step of the arrow keys in a top view, meters, and decimals of the position.
 const ON_PLAN: (f64, usize) = (0.05, 2);
 
 impl Probe {
@@ -49,7 +49,7 @@ impl Probe {
         Self { ranges, ..self }
     }
 
-    /// Sets the ranges on a [`plan`](crate::kit::plan): meters to the right and away.
+    /// Sets the ranges in a [`plan`](crate::kit::plan): meters to the right and away.
     pub(crate) const fn on_plan(self, ranges: [[f64; 2]; 2]) -> Self {
         let (step, digits) = ON_PLAN;
         Self {
@@ -66,7 +66,7 @@ impl Probe {
         Self { ranges, ..self }
     }
 
-    /// Sets the step of an arrow key, world units.
+    /// Sets the step of the arrow keys, world units.
     pub(crate) const fn step(self, step: f64) -> Self {
         Self { step, ..self }
     }
@@ -76,7 +76,7 @@ impl Probe {
         Self { digits, ..self }
     }
 
-    /// Sets the function that puts the position in words.
+    /// Sets the function that formats the position as text.
     pub(crate) const fn told(self, words: fn((f64, f64)) -> String) -> Self {
         Self { words, ..self }
     }
@@ -121,7 +121,7 @@ impl Probe {
         (u as u32, v as u32)
     }
 
-    /// Returns its position in words.
+    /// Formats its position as text.
     pub(crate) fn text(&self) -> String {
         (self.words)(self.place())
     }
@@ -148,13 +148,13 @@ pub(crate) const fn ranges((width, height): (u32, u32)) -> [[f64; 2]; 2] {
     [range(width), range(height)]
 }
 
-/// Returns a position in a photograph in words, such as "column 12, row 30".
+/// Formats a position in a photograph, such as "column 12, row 30".
 pub(crate) fn place_words((u, v): (f64, f64), digits: usize) -> String {
     let [column, row] = [u, v].map(|value| format_number(value, digits));
     format!("column {column}, row {row}")
 }
 
-/// Returns a position on a plan in words, such as "2.00 m away, 0.30 m to the right".
+/// Formats a position in a top view, such as "2.00 m away, 0.30 m to the right".
 fn meters((x, z): (f64, f64)) -> String {
     let side = if x < 0.0 { "left" } else { "right" };
     let [away, aside] = [z, x.abs()].map(|value| format_number(value, 2));

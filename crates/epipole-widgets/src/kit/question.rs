@@ -1,4 +1,4 @@
-//! Questions: long computations, their answers, and a model's state of both.
+//! Questions: long computations, their answers, and the state of both in a model.
 //!
 //! A figure's `question.rs` defines the computation ([`Question`]); its model holds a
 //! [`Computation`] and returns it from [`Model::asking`](crate::contract::Model::asking). Answers
@@ -13,28 +13,27 @@ use serde::de::DeserializeOwned;
 use std::cell::OnceCell;
 use std::ops::ControlFlow;
 
-/// Everything that a long computation depends on.
+/// All inputs of a long computation.
 pub(crate) trait Question: PartialEq + Serialize + DeserializeOwned + 'static {
     /// Result of the computation.
     type Answer: Serialize + DeserializeOwned + 'static;
 
-    /// Status shown meanwhile, such as "Looking for corners".
+    /// Status shown while it runs, such as "Looking for corners".
     const LABEL: &'static str;
 
-    /// Start of the sentence when the computation fails, such as "There are no corners".
+    /// Start of the message if it fails, such as "There are no corners".
     const FAILED: &'static str;
 
-    /// Carries out the computation: a function of the question alone.
+    /// Runs the computation, a function of the question alone.
     ///
-    /// # Errors
-    /// A sentence without a capital and a full stop, or [`Error::Canceled`].
+    /// # Errors A message in lower case without a period, or [`Error::Canceled`].
     fn answer(&self, progress: Progress<'_>) -> Result<Self::Answer, Problem>;
 
-    /// Returns whether this can be an answer to the question: of the right size, without NaN.
+    /// Returns whether an answer is valid for the question: of the right size, without NaN.
     fn fits(&self, answer: &Self::Answer) -> bool;
 }
 
-/// Carries out a serialized question: the `compute` of a model.
+/// Runs a serialized question: the `compute` of a model.
 pub(crate) fn carry_out<Q: Question>(request: &[u8], progress: Progress<'_>) -> JobResult {
     let unreadable = |_| Error::Degenerate {
         what: "the question of a figure",
@@ -45,7 +44,7 @@ pub(crate) fn carry_out<Q: Question>(request: &[u8], progress: Progress<'_>) -> 
     Ok(postcard::to_allocvec(&answer).unwrap_or_default())
 }
 
-/// Reports the fraction done and returns an error once the reader no longer waits.
+/// Reports the fraction done. Returns an error if the answer is no longer needed.
 ///
 /// # Errors
 /// [`Error::Canceled`].
@@ -89,7 +88,7 @@ impl<Q: Question> Computation<Q> {
         asked
     }
 
-    /// Asks, unless the answer is known. The last answer stays until the new one arrives.
+    /// Requests the answer, unless it is known. The last answer remains until the new one arrives.
     pub(crate) fn ask(&mut self, question: Q) {
         self.problem = None;
         if self
@@ -106,19 +105,19 @@ impl<Q: Question> Computation<Q> {
         });
     }
 
-    /// Records a sentence on why nothing can be asked.
+    /// Sets a message why no question can be asked.
     pub(crate) fn refuse(&mut self, sentence: impl Into<String>) {
         self.forget();
         self.problem = Some(sentence.into());
     }
 
-    /// Discards question and answer, for instance after a change of subject.
+    /// Discards question and answer, for example after a change of subject.
     pub(crate) fn forget(&mut self) {
         (self.out, self.known, self.problem) = (None, None, None);
         self.version += 1;
     }
 
-    /// Returns the last answer, possibly of an earlier question than the pending one.
+    /// Returns the last answer, possibly to an earlier question than the pending one.
     pub(crate) fn answer(&self) -> Option<&Q::Answer> {
         self.known.as_ref().map(|(_, answer)| answer)
     }
@@ -135,7 +134,7 @@ impl<Q: Question> Computation<Q> {
         self.problem().unwrap_or(Q::LABEL)
     }
 
-    /// Returns the sentence in place of an answer: the problem, or the status.
+    /// Returns the same as a sentence.
     pub(crate) fn sentence(&self) -> String {
         self.problem()
             .map_or_else(|| format!("{}.", Q::LABEL), str::to_owned)
@@ -146,7 +145,7 @@ impl<Q: Question> Computation<Q> {
         if self.is_waiting() { "…" } else { "–" }
     }
 
-    /// Returns the problem, as a sentence, if the last question failed.
+    /// Returns the error message, if the last question failed.
     pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.as_deref()
     }
@@ -156,7 +155,7 @@ impl<Q: Question> Computation<Q> {
         self.out.is_some()
     }
 
-    /// Returns a number that changes with the answer, for the caches of views.
+    /// Returns a version number of the answer, for the caches of views.
     pub(crate) fn version(&self) -> u64 {
         self.version
     }
@@ -277,7 +276,7 @@ mod tests {
         assert!(asked.is_waiting() && asked.answer().is_none());
         assert!(settle(&mut asked) && !asked.is_waiting());
         assert_eq!(asked.answered(), Some((&Half(3.0), &1.5)));
-        // A known answer is not asked for again, and stays during a new question.
+        // A known answer is not requested again, and remains during a new question.
         asked.ask(Half(3.0));
         assert!(asked.job().is_none());
         asked.ask(Half(5.0));

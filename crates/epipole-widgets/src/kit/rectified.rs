@@ -51,8 +51,8 @@ pub(crate) struct RectifiedPair {
 impl RectifiedPair {
     /// Renders the pair.
     ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the baseline, and [`Error::Canceled`] if `progress` ended it.
+    /// # Errors [`Error::OutOfRange`] for the baseline, and [`Error::Canceled`] if `progress`
+    /// cancels.
     pub(crate) fn render(baseline_m: f64, progress: Progress<'_>) -> Result<Self, Problem> {
         tell(progress, 0.0)?;
         if !(baseline_m > 0.0 && baseline_m < 1.0) {
@@ -125,7 +125,8 @@ fn focal_px() -> f64 {
 /// Returns the left camera and the right one, a baseline apart along the rows.
 fn cameras(baseline_m: f64) -> [PosedCamera; 2] {
     let left = still_life_camera(SIZE.0, SIZE.1);
-    // Half a baseline to either side of the composition's viewpoint, so that both see the table.
+    // The cameras are half a baseline to either side of the composition's viewpoint, so both see
+    // the table.
     let shifted = |x_m: f64| PosedCamera {
         cam_from_world: RigidTransform::translation(-x_m, 0.0, 0.0) * left.cam_from_world,
         ..left
@@ -149,14 +150,14 @@ fn hidden(left: &[f32], right: &[f32]) -> Vec<bool> {
         if there < 0.0 {
             return true;
         }
-        // A surface in front has a larger disparity.
+        // An occluding surface has a larger disparity.
         let before = right[row * width + (there as usize).min(width - 1)] - left[index];
         before > SAME_SURFACE_PX
     };
     (0..left.len()).map(is_hidden).collect()
 }
 
-/// Draws the outline of a window, which leaves its pixels visible, with four ticks to find it by.
+/// Draws the outline of a window, with its pixels visible, and four ticks to make it easy to find.
 pub(crate) fn draw_window(canvas: &mut Canvas, (x, y): Place, half: f64) {
     let stroke = Stroke::solid(Role::Grip, 2.0).cased();
     for (along, across) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)] {

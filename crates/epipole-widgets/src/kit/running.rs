@@ -1,4 +1,4 @@
-//! Loops that a reader runs, steps and restarts: their buttons and their pace.
+//! Loops that the reader runs, steps and restarts: buttons and pace.
 
 use crate::contract::{Button, ButtonRole, Control, Event};
 
@@ -99,7 +99,7 @@ mod tests {
             [0.1, 0.1, 0.1].map(|dt_s| running.tick(dt_s, 7)),
             [None, None, Some(8)]
         );
-        // The remaining time counts for the next step.
+        // The remaining time counts towards the next step.
         assert_eq!(
             [0.1, 0.1].map(|dt_s| running.tick(dt_s, 8)),
             [None, Some(9)]

@@ -1,4 +1,4 @@
-//! The core's RANSAC loop for step-by-step display, until enough samples are drawn.
+//! The core's RANSAC loop, step by step, until enough samples are drawn.
 
 use crate::contract::Readout;
 use epipole::Error;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Confidence of having drawn an all-inlier sample at which the loop ends.
 const CONFIDENCE: f64 = 0.99;
-/// Largest number of needed samples that is reported.
+/// Maximum number of needed samples that is reported.
 const LARGEST_BUDGET: u64 = 1_000_000;
 
 /// Options of the loop.
@@ -20,7 +20,7 @@ pub(crate) struct Rules {
     pub(crate) max_samples: usize,
     /// Whether inliers score by distance (MSAC) instead of 1 each.
     pub(crate) msac: bool,
-    /// Whether each new best model is refitted to its inliers at once.
+    /// Whether each new best model is immediately refitted to its inliers.
     pub(crate) local_optimization: bool,
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn inliers_of<T: Copy>(data: &[T], is_inlier: &[bool]) -> Vec<T> {
 pub(crate) struct Last<M> {
     /// Indices into the data.
     pub(crate) sample: Vec<usize>,
-    /// Model of the sample; of several the one with most votes.
+    /// Model of the sample; of several, the one with the most votes.
     pub(crate) model: Option<M>,
 }
 
@@ -95,7 +95,7 @@ impl<E: Estimator> Samples<E> {
         })
     }
 
-    /// Draws until `count` samples in total, or enough. Returns whether the best model has
+    /// Draws until there are `count` samples or enough. Returns whether the best model has
     /// improved.
     pub(crate) fn draw_to(&mut self, count: usize) -> bool {
         let mut has_improved = false;
@@ -154,7 +154,7 @@ pub(crate) struct Drawn {
 }
 
 impl Drawn {
-    /// Progress before the first sample.
+    /// Returns the progress before the first sample.
     pub(crate) fn nothing(max_samples: usize) -> Self {
         Self {
             count: 0,
@@ -173,7 +173,7 @@ impl Drawn {
         self.is_confident() || self.count >= self.max_samples
     }
 
-    /// Returns the readouts of samples drawn and needed; without a loop, these words.
+    /// Returns the readouts of samples drawn and needed; without a loop, `none`.
     pub(crate) fn readouts(drawn: Option<Self>, none: &str) -> [Readout; 2] {
         let otherwise = if drawn.is_some() { "> 10⁶" } else { none };
         let count = drawn.map(|drawn| drawn.count as f64);
@@ -185,7 +185,7 @@ impl Drawn {
         ]
     }
 
-    /// Returns a sentence on the number of samples needed.
+    /// Describes the number of samples needed.
     pub(crate) fn outlook(&self) -> String {
         match self.budget {
             _ if self.is_confident() => "That is enough for 99% confidence.".to_owned(),
@@ -198,7 +198,7 @@ impl Drawn {
         }
     }
 
-    /// Returns the count, such as "1 sample" or "12 samples".
+    /// Formats the count, such as "1 sample" or "12 samples".
     pub(crate) fn count_words(&self) -> String {
         match self.count {
             1 => "1 sample".to_owned(),

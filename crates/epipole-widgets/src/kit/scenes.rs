@@ -31,7 +31,7 @@ pub(crate) fn in_picture(pixel: &Point2<f64>) -> bool {
 pub(crate) enum Seen {
     /// Visible at this pixel.
     Visible(Point2<f64>),
-    /// Hidden at this pixel by the named thing.
+    /// Hidden at this pixel by the named object.
     Hidden(Point2<f64>, &'static str),
     /// Outside of the picture, at this pixel.
     Outside(Point2<f64>),
@@ -42,7 +42,7 @@ pub(crate) enum Seen {
 }
 
 impl Seen {
-    /// Computes it from the scene's exact depth.
+    /// Computes the visibility from the scene's exact depth.
     pub(crate) fn of([first, second]: &[PosedCamera; 2], pixel1: &Point2<f64>) -> Self {
         match still_life().transfer(first, second, pixel1) {
             Transfer::Visible { pixel2, .. } | Transfer::Occluded { pixel2, .. }
@@ -69,7 +69,7 @@ impl Seen {
 /// Height of the long table's ball center below the cameras, meters.
 pub(crate) const BALL_Y_M: f64 = 0.14;
 
-/// Radius of the ball with a small margin, meters; and the radius of its shade's extent.
+/// Radius of the ball with a small margin, meters; then the radius of its shade.
 const BALL_RADIUS_M: f64 = 0.112;
 const BALL_SHADE_M: f64 = 0.3;
 
@@ -92,8 +92,8 @@ pub(crate) fn still_life() -> Scene {
     Scene::still_life()
 }
 
-/// Returns two cameras on the still life: the one it was composed for, and one moved and rotated in
-/// the first one's horizontal plane.
+/// Returns two cameras in front of the still life: the one it was composed for, and one moved and
+/// rotated in the horizontal plane of the first.
 ///
 /// * `size`: width and height of both photographs, pixels
 /// * `right_m`, `forward_m`, `left_deg`: position of the second camera in the frame of the first,
@@ -105,7 +105,8 @@ pub(crate) fn still_life_pair(
     left_deg: f64,
 ) -> [PosedCamera; 2] {
     let first = still_life_camera(width, height);
-    // y points down: turning the camera left rotates what it sees to the right, by +y.
+    // y points down: rotating the camera to the left rotates the scene to the right in its frame,
+    // by +y.
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), left_deg.to_radians());
     let to_center = Translation3::new(-right_m, 0.0, -forward_m);
     let cam2_from_cam1 = Isometry3::from_parts(Translation3::identity(), turn) * to_center;
@@ -118,8 +119,7 @@ pub(crate) fn still_life_pair(
 
 /// Renders a sharp photograph of the still life.
 ///
-/// # Errors
-/// As [`Scene::render`], and [`Error::Canceled`] if `progress` ended it.
+/// # Errors As [`Scene::render`], and [`Error::Canceled`] if `progress` cancels.
 pub(crate) fn photograph(
     camera: &PosedCamera,
     (width, height): (u32, u32),
@@ -138,11 +138,10 @@ pub(crate) fn photograph(
     Ok(photograph.image)
 }
 
-/// Returns the long table with its ball at a position seen from above, meters to the right of the
+/// Returns the long table with its ball at a position in the top view, meters to the right of the
 /// left camera and away from it.
 ///
-/// # Errors
-/// As [`Scene::long_table`]: the position is not on the table.
+/// # Errors As [`Scene::long_table`], if the position is not on the table.
 pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
     Scene::long_table(MovableObject {
         kind: MovableKind::Ball,
@@ -154,8 +153,8 @@ pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
 /// Size of [`square_picture`], pixels.
 pub(crate) const SQUARE_SIZE: (u32, u32) = (240, 180);
 
-/// Returns a dark square on a light ground, rotated by 15°, with edges smoothed over a pixel and
-/// noise of this standard deviation in gray levels.
+/// Returns a dark square on a light background, rotated by 15°, with edges smoothed over a pixel
+/// and noise of this standard deviation in gray levels.
 pub(crate) fn square_picture(noise: f64) -> RgbImage {
     static GRAIN: OnceLock<Vec<f64>> = OnceLock::new();
     let (width, height) = SQUARE_SIZE;

@@ -1,4 +1,4 @@
-//! Frames of a camera that moves once around before the still life, and back to its start.
+//! Frames of a camera that moves on a closed path in front of the still life.
 
 use crate::contract::Progress;
 use crate::kit::question::tell;
@@ -13,10 +13,10 @@ use std::sync::OnceLock;
 pub(crate) const NUM_FRAMES: usize = 32;
 /// Size of a frame, pixels.
 pub(crate) const SIZE: (u32, u32) = (320, 240);
-/// Half axes of the path to the right and forward, meters.
+/// Semi-axes of the path to the right and forward, meters.
 const ACROSS_M: f64 = 0.3;
 const FORWARD_M: f64 = 0.12;
-/// Distance of the point that the camera keeps in the middle of its rows, meters.
+/// Distance of the point that the camera keeps in its middle column, meters.
 const TARGET_M: f64 = 1.6;
 
 /// Returns the camera of a frame.
@@ -31,8 +31,7 @@ pub(crate) fn camera(frame: usize) -> PosedCamera {
 
 /// Returns all frames, rendered on the first call.
 ///
-/// # Errors
-/// [`Error::Canceled`] if `progress` ended it.
+/// # Errors [`Error::Canceled`] if `progress` cancels.
 pub(crate) fn frames(progress: Progress<'_>) -> Result<&'static [RgbImage], Error> {
     static FRAMES: OnceLock<Vec<RgbImage>> = OnceLock::new();
     if let Some(frames) = FRAMES.get() {

@@ -1,5 +1,5 @@
-//! Photographs in a scene, each in the image plane of its camera. They hide what is behind them, so
-//! marks that cross their planes are cut there.
+//! Photographs in a scene, each in the image plane of its camera. They hide the marks behind them,
+//! so marks that intersect their planes are cut there.
 
 use crate::canvas::Place;
 use crate::kit::lens::Lens;
@@ -16,7 +16,7 @@ pub(crate) struct Standing<'a> {
     pub(crate) image: &'a RgbImage,
     pub(crate) corners: [Place; 4],
     sides: [Side; 4],
-    /// From CSS pixels of the page to pixels of the photograph.
+    /// Homography from CSS pixels of the page to pixels of the photograph.
     pub(crate) photo_from_page: Matrix3<f64>,
     plane: Plane,
     /// Depth of its center from the eye.
@@ -31,7 +31,7 @@ struct Plane {
 }
 
 impl Plane {
-    /// The plane through a point with this normal, or its opposite.
+    /// Returns the plane through a point with this normal, or its opposite.
     fn facing(normal: Vector3<f64>, point: &Point3<f64>) -> Self {
         let towards = -normal.dot(&point.coords);
         Self {
@@ -45,7 +45,7 @@ impl Plane {
     }
 }
 
-/// A flat face in front of the eye, which hides what is behind it.
+/// A flat face in front of the eye, which hides the marks behind it.
 pub(crate) struct Screen {
     plane: Plane,
     corners: Vec<Place>,
@@ -83,8 +83,8 @@ impl Screen {
 }
 
 impl<'a> Standing<'a> {
-    /// Places the photograph of a camera `depth` in front of its center. `None` where it cannot be
-    /// seen: edge-on, or partly behind the eye.
+    /// Places the photograph of a camera `depth` in front of its center. `None` if it is not
+    /// visible: edge-on, or partly behind the eye.
     pub(crate) fn new(
         lens: &Lens,
         camera: &PosedCamera,
@@ -193,7 +193,7 @@ impl Side {
     }
 }
 
-/// Clips a convex polygon to where `side`, a function linear in space, is not negative.
+/// Clips a convex polygon to the part in which `side`, a linear function, is not negative.
 pub(crate) fn half(
     corners: &[Point3<f64>],
     side: impl Fn(&Point3<f64>) -> f64,
@@ -249,7 +249,7 @@ mod tests {
                 |point: &Point3<f64>| standing.hides(point, &[lens.shown(point).unwrap().0]);
             assert_eq!(hides(&at(1.2)), eye_is_behind);
             assert_eq!(hides(&at(0.6)), !eye_is_behind);
-            // Far to the side nothing is hidden, on either side of the plane.
+            // Outside of the photograph's outline nothing is hidden, on either side of the plane.
             for z in [0.6, 1.2] {
                 assert!(!hides(&(at(z) + Vector3::new(1.5, 0.0, 0.0))));
             }
@@ -261,7 +261,7 @@ mod tests {
             assert!(before.len() >= 3 && behind.len() >= 3);
             assert!(behind.iter().all(|p| standing.plane.side(p) < 1e-9));
         }
-        // Exactly from the side the photograph is a line.
+        // Seen edge-on the photograph is a line.
         let lens = Lens::new(
             (300.0, 200.0),
             (1.0, 1.0),

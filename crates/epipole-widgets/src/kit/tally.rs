@@ -15,20 +15,20 @@ pub(crate) struct Vote {
     pub(crate) is_best: bool,
 }
 
-/// A number of samples and their outcomes.
+/// Samples so far, and their outcomes.
 pub(crate) struct Tally {
     pub(crate) samples: Samples<LineEstimator>,
     pub(crate) votes: Vec<Vote>,
-    /// The line of the last sample, with its voters.
+    /// Line of the last sample, with its inliers.
     pub(crate) candidate: Option<Consensus>,
-    /// The best line so far, fitted to its voters.
+    /// Best line so far, refitted to its inliers.
     pub(crate) best: Option<Consensus>,
-    /// The hidden line, with its voters.
+    /// Hidden line, with its inliers.
     pub(crate) truth: Consensus,
 }
 
 impl Tally {
-    /// Draws `num_samples` samples, or fewer if they are enough.
+    /// Draws `num_samples` samples, or fewer if they are sufficient.
     ///
     /// # Errors
     /// As [`Samples::new`].
@@ -88,8 +88,8 @@ mod tests {
         let tally = Tally::new(places, scattered.truth, rules, 500).unwrap();
         assert_eq!(tally.votes.len(), tally.samples.count());
         assert!(tally.samples.is_finished() && tally.votes[0].is_best);
-        // The best is the first sample with the most votes, and each best has more than the one
-        // before.
+        // The best is the first sample with the most votes, and each best has more than the
+        // previous one.
         let most = tally.votes.iter().map(|vote| vote.num_votes).max().unwrap();
         assert_eq!(tally.best.unwrap().num_votes(), most);
         let kept = tally.votes.iter().filter(|vote| vote.is_best);

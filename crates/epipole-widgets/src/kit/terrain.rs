@@ -1,5 +1,5 @@
-//! A function on an integer grid as a terrain: a map with level lines, and a surface net seen from
-//! above and in front.
+//! A function on an integer grid as a terrain: a map with level lines, and a wireframe surface
+//! viewed from the front above.
 
 use crate::canvas::{Canvas, Place, Stroke, TextStyle};
 use crate::contract::Rect;
@@ -51,12 +51,12 @@ impl Terrain<'_> {
         map
     }
 
-    /// Returns the level of every pixel of the map, row by row, and the pixels per row.
+    /// Returns the level of every pixel of the map, row by row, and the number of pixels per row.
     fn levels(&self, level: impl Fn(f64) -> usize) -> (Vec<usize>, usize) {
         let reach = self.reach as i32;
         let side = (2 * self.reach + 1) * FINE;
         let limit = f64::from(reach);
-        // The grid point before each pixel, and the fraction beyond it.
+        // Grid point before each pixel, and the fraction beyond it.
         let places: Vec<(usize, f64)> = (0..side)
             .map(|pixel| {
                 let at = (pixel as f64 + 0.5) / FINE as f64 - 0.5 - limit;
@@ -64,7 +64,7 @@ impl Terrain<'_> {
                 ((at.floor() + limit) as usize, at - at.floor())
             })
             .collect();
-        // Interpolate across the columns once per grid row, then down the rows.
+        // Interpolates across the columns once per grid row, then down the rows.
         let across: Vec<Vec<f64>> = (-reach..=reach)
             .map(|y| {
                 let row: Vec<f64> = (-reach..=reach).map(|x| self.at(x, y)).collect();
@@ -82,7 +82,7 @@ impl Terrain<'_> {
         (levels, side)
     }
 
-    /// Draws the net with a marked point.
+    /// Draws the wireframe with a marked point.
     ///
     /// * `top`: value at the upper edge
     /// * `color`: color of a value

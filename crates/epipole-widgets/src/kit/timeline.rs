@@ -1,35 +1,35 @@
-//! The frames of a video, or the steps of a computation, on the track below a plot: a handle, and
-//! buttons that run through them.
+//! Frames of a video, or steps of a computation, on a track below a plot, with a handle and buttons
+//! to play them.
 
 use crate::contract::{Control, Event, Handle, round_to_digits};
 use crate::kit::running::Running;
 
 /// Frames of a video per second.
 const PACE: f64 = 8.0;
-/// Digits of a position between two frames, as permalinks have them.
+/// Decimals of a position between two frames in permalinks.
 const DIGITS: usize = 2;
 
-/// The frame that is shown, among those from 0 to the last.
+/// Current frame, from 0 to the last.
 pub(crate) struct Timeline {
     /// Id of the handle.
     id: &'static str,
     /// Name of one frame or step.
     name: &'static str,
     running: Running,
-    /// Position on the track, frames; `None` for the last one, however many there are.
+    /// Position on the track, frames; `None` for the last frame.
     place: Option<f64>,
 }
 
 impl Timeline {
-    /// Creates a timeline of the frames of a video, at the last one.
+    /// Creates a timeline for frames of a video, at the last one.
     pub(crate) fn of_frames() -> Self {
         Self::new("frame", "Frame", PACE)
     }
 
     /// Creates a timeline at its end.
     ///
-    /// * `id`: of the handle
-    /// * `name`: of one frame or step
+    /// * `id`: id of the handle
+    /// * `name`: name of one frame or step
     pub(crate) fn new(id: &'static str, name: &'static str, steps_per_second: f64) -> Self {
         Self {
             id,
@@ -39,13 +39,13 @@ impl Timeline {
         }
     }
 
-    /// Returns the number of the frame that is shown.
+    /// Returns the index of the current frame.
     pub(crate) fn frame(&self, last: usize) -> usize {
         self.place(last).round() as usize
     }
 
-    /// Returns the position of the handle on the track, frames. It stays under the reader's finger
-    /// between two frames.
+    /// Returns the position of the handle on the track, frames. During a drag it can be between two
+    /// frames.
     pub(crate) fn place(&self, last: usize) -> f64 {
         let last = last as f64;
         self.place.unwrap_or(last).clamp(0.0, last)

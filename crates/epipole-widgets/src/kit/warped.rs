@@ -1,4 +1,4 @@
-//! A photograph seen through a homography, as far as its horizon.
+//! A photograph warped by a homography, up to its horizon.
 
 use crate::canvas::{Canvas, Place};
 use crate::contract::Panel;
@@ -6,13 +6,12 @@ use epipole::homography::transfer;
 use image::RgbImage;
 use nalgebra::{Matrix3, Point2, Vector3};
 
-/// Smallest third coordinate that is drawn, relative to the largest: beyond it, a pixel of the
+/// Minimum third coordinate that is drawn, relative to the largest; below it, a pixel of the
 /// photograph would cover the whole panel.
 const NEAR_HORIZON: f64 = 0.02;
 
 /// Draws a photograph through a homography to the panel's coordinates, whose scale is the same in
-/// both directions. The part whose third coordinate is negative lies beyond the horizon and is left
-/// out.
+/// both directions. The part with a negative third coordinate, beyond the horizon, is omitted.
 pub(crate) fn draw(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -35,8 +34,8 @@ pub(crate) fn draw(
     canvas.warped_photograph(&places, &photo_from_page, photograph);
 }
 
-/// Returns the outline of the part of a photograph before the horizon, in the coordinates of the
-/// homography's image.
+/// Returns the outline of the part of a photograph in front of the horizon, in the coordinates of
+/// the homography's image.
 fn outline(shown_from_photo: &Matrix3<f64>, (width, height): (u32, u32)) -> Vec<Point2<f64>> {
     let (right, bottom) = (f64::from(width) - 0.5, f64::from(height) - 0.5);
     let corners = [(-0.5, -0.5), (right, -0.5), (right, bottom), (-0.5, bottom)];
@@ -79,7 +78,7 @@ mod tests {
         let floor = Matrix3::new(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.01, -1.0);
         let found = outline(&floor, (200, 300));
         assert_eq!(found.len(), 4);
-        // The second coordinate of the image is 1 / w; its largest is at the cut.
+        // The second coordinate of the image is 1 / w, with its maximum at the cut.
         let largest_w = 0.01 * 299.5 - 1.0;
         let far = found.iter().map(|point| point.y).fold(0.0, f64::max);
         assert!(

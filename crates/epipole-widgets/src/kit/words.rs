@@ -1,4 +1,4 @@
-//! Pixels, epipoles, lines and matrices in words.
+//! Text for pixels, epipoles, lines and matrices.
 
 use crate::contract::format_number;
 use crate::kit::scenes::{PHOTO_HEIGHT, PHOTO_WIDTH, in_picture};
@@ -17,7 +17,7 @@ pub(crate) fn pixel(pixel: &Point2<f64>) -> String {
 
 /// Formats a pixel without decimals, such as "(320, 240)".
 pub(crate) fn whole_pixel(pixel: &Point2<f64>) -> String {
-    // Halves are rounded alike, whatever noise they carry.
+    // Rounded first, so that halves are rounded consistently despite numerical noise.
     let [u, v] = [pixel.x, pixel.y].map(|x| format_number((x * 1e6).round() / 1e6, 0));
     format!("({u}, {v})")
 }
@@ -88,12 +88,12 @@ pub(crate) fn line(line: &Line2) -> String {
     )
 }
 
-/// Formats a sentence to follow others: a space and the sentence, or nothing.
+/// Formats a sentence that follows others: a space and the sentence, or nothing.
 pub(crate) fn after(sentence: Option<&str>) -> String {
     sentence.map_or_else(String::new, |sentence| format!(" {sentence}"))
 }
 
-/// Formats a number with as few decimals as needed, two at most.
+/// Formats a number with as few decimals as needed, at most two.
 pub(crate) fn short(value: f64) -> String {
     let digits = (0..2).find(|&digits| {
         let times = [1.0, 10.0][digits];

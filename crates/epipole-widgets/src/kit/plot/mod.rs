@@ -12,15 +12,15 @@ use crate::kit::grid::{SMALL, fitting_title};
 use crate::kit::labels::Labels;
 use crate::theme::Role;
 
-/// Room for the numbers of the vertical axis, CSS pixels.
+/// Width of the vertical axis's numbers, CSS pixels.
 pub(crate) const LEFT: f64 = 42.0;
-/// Room for the numbers of the horizontal axis, CSS pixels.
+/// Height of the horizontal axis's numbers, CSS pixels.
 const BELOW: f64 = 22.0;
-/// Room to the right of a plot.
+/// Margin to the right of a plot, CSS pixels.
 const RIGHT: f64 = 6.0;
-/// Height of the track of a handle below a plot, CSS pixels.
+/// Height of a handle's track below a plot, CSS pixels.
 const TRACK: f64 = 24.0;
-/// Room for the name of the horizontal axis.
+/// Height of the horizontal axis's name, CSS pixels.
 const NAME: f64 = 17.0;
 /// Font size of exponents, CSS pixels.
 const RAISED: f64 = 9.0;
@@ -28,7 +28,8 @@ const RAISED: f64 = 9.0;
 const ACROSS: f64 = 58.0;
 const DOWN: f64 = 30.0;
 
-/// Draws the number of a tick; what follows a "^" is raised, since the font has no raised minus.
+/// Draws the number of a tick. The text after a "^" is raised, since the font has no superscript
+/// minus.
 fn draw_number(canvas: &mut Canvas, (x, y): Place, text: &str, style: TextStyle) {
     let (base, raised) = text.split_once('^').unwrap_or((text, ""));
     if raised.is_empty() {
@@ -74,11 +75,12 @@ pub(crate) fn panel(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> Panel
     Panel::new(id, rect, [x.from, x.to], [y.to, y.from])
 }
 
-/// Creates a plot's panel and below it that of a [`track`](draw_track), with the same columns.
+/// Creates a plot's panel and below it that of a [`track`](draw_track), with the same horizontal
+/// range.
 pub(crate) fn panel_and_track(id: &'static str, cell: Rect, x: &Ruler, y: &Ruler) -> [Panel; 2] {
     let above = Rect::new(cell.x, cell.y, cell.width, cell.height - TRACK);
     let plot = panel(id, above, x, y).clickable();
-    // Below the numbers, out of the way of the curves.
+    // Below the numbers, away from the curves.
     let track = Panel {
         id: "track",
         rect: Rect::new(plot.rect.x, above.bottom(), plot.rect.width, TRACK),
@@ -100,7 +102,7 @@ pub(crate) fn draw_track(canvas: &mut Canvas, track: &Panel, ends: [f64; 2], now
     canvas.grip(track.canvas_from_world((now, 0.0)), Role::Grip);
 }
 
-/// Draws a plot's title, in the first wording that fits, and its axes.
+/// Draws a plot's axes and title: the first text that fits.
 pub(crate) fn open<'a>(
     canvas: &mut Canvas,
     layout: &'a Layout,
@@ -114,8 +116,8 @@ pub(crate) fn open<'a>(
     panel
 }
 
-/// Draws the title of a plot, in the first wording that fits, aligned with the numbers of the
-/// vertical axis.
+/// Draws the title of a plot, the first text that fits, aligned with the numbers of the vertical
+/// axis.
 pub(crate) fn title_from_left(canvas: &mut Canvas, panel: &Panel, titles: &[&str]) {
     let Rect { x, width, .. } = panel.rect;
     let above = Rect {
@@ -135,14 +137,14 @@ pub(crate) fn draw_axes(canvas: &mut Canvas, panel: &Panel, x: &Ruler, y: &Ruler
     for (at, text) in y.ticks(rect.height, DOWN) {
         let v = panel.canvas_from_world((x.from, at)).1;
         canvas.line((rect.x + 1.0, v), (rect.right() - 1.0, v), grid);
-        // At the very top, half of a number would run into the title.
+        // At the very top, half of a number would overlap the title.
         let beside = v.max(rect.y + 4.0);
         draw_number(canvas, (rect.x - 6.0, beside), &text, style.end());
     }
     for (at, text) in x.ticks(rect.width, ACROSS) {
         let u = panel.canvas_from_world((at, y.from)).0;
         canvas.line((u, rect.y + 1.0), (u, rect.bottom() - 1.0), grid);
-        // At the very right, half of a number has no room.
+        // At the very right, there is no room for half of a number.
         let middle = u.min(rect.right() + RIGHT - number_width(&text) / 2.0);
         draw_number(
             canvas,
@@ -178,11 +180,11 @@ pub(crate) struct List<'a> {
     pub(crate) stroke: Stroke,
     /// Shape and radius of the marks, CSS pixels.
     pub(crate) mark: (Shape, f64),
-    /// Name, and the index of the value beside which it is drawn.
+    /// Name, and the index of the value at which it is drawn.
     pub(crate) name: (&'a str, usize),
 }
 
-/// Draws lists, and then their names beside them. Values beyond the axis are drawn at its edge.
+/// Draws lists, and then their names beside them. Values beyond the axis are drawn at its end.
 pub(crate) fn draw_lists(canvas: &mut Canvas, panel: &Panel, lists: &[List]) {
     let mut labels = Labels::new(panel.rect.inset(2.0));
     let world = |(k, value): (usize, &f64)| {

@@ -5,7 +5,7 @@ use crate::contract::format_number;
 /// Minimum spacing of names along an axis of named items, CSS pixels.
 const NAMES: f64 = 20.0;
 
-/// The names of nine singular values.
+/// Names of nine singular values.
 pub(crate) const SIGMAS: &[&str] = &["σ₁", "σ₂", "σ₃", "σ₄", "σ₅", "σ₆", "σ₇", "σ₈", "σ₉"];
 
 /// Scale of an axis.
@@ -29,9 +29,9 @@ pub(crate) struct Ruler {
     pub(super) name: &'static str,
     /// Unit after each number.
     unit: &'static str,
-    /// Factor applied to numbers before they are shown.
+    /// Factor applied to displayed numbers.
     times: f64,
-    /// Names at 1, 2, 3 …, instead of numbers.
+    /// Names at 1, 2, 3 …, in place of numbers.
     names: &'static [&'static str],
 }
 
@@ -57,7 +57,7 @@ impl Ruler {
         }
     }
 
-    /// Creates an axis of items that are counted from 1, with their names.
+    /// Creates an axis of named items, counted from 1.
     pub(crate) fn things(names: &'static [&'static str]) -> Self {
         Self {
             names,
@@ -78,7 +78,7 @@ impl Ruler {
         Self { name, ..self }
     }
 
-    /// Sets the unit of the numbers and their factor, such as percent.
+    /// Sets the unit of the displayed numbers and their factor, for example for percent.
     pub(crate) fn shown(self, times: f64, unit: &'static str) -> Self {
         Self {
             times,
@@ -120,7 +120,7 @@ impl Ruler {
                 let digits = (-libm::floor(libm::log10(step) + 1e-9)).clamp(0.0, 6.0) as usize;
                 format!("{}{}", format_number(at * self.times, digits), self.unit)
             }
-            // Use one notation for all numbers of an axis.
+            // All numbers of an axis use the same notation.
             Scale::Decades if first as f64 * step < -3.0 || last as f64 * step > 3.0 => {
                 format!("10^{}", format_number(at, 0))
             }
@@ -165,7 +165,8 @@ fn within_decades(low: f64, high: f64) -> Vec<(f64, String)> {
     ticks.filter(is_inside).collect()
 }
 
-/// Converts a value to the world of a logarithmic axis; zero and negative values are far below.
+/// Converts a value to the world of a logarithmic axis; zero and negative values are mapped far
+/// below.
 pub(crate) fn decade(value: f64) -> f64 {
     libm::log10(value.max(1e-300))
 }

@@ -1,4 +1,4 @@
-//! Two-view reconstruction as one question: every stage from pixels to points in space.
+//! Two-view reconstruction as one question: every stage from pixels to points in 3D.
 
 mod stages;
 mod surface;
@@ -36,11 +36,11 @@ pub(crate) enum Stage {
 /// Source of the two photographs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) enum Source {
-    /// The rendered still life, from two places.
+    /// The rendered still life, from two positions.
     Step,
-    /// The rendered still life, from one place in two directions.
+    /// The rendered still life, from one position in two directions.
     Turn,
-    /// The reader's own photographs.
+    /// Photographs of the reader.
     Own([Picture; 2]),
 }
 
@@ -52,9 +52,9 @@ pub(crate) struct Question {
     pub(crate) focal: f64,
     /// Maximum ratio of Lowe's test.
     pub(crate) max_ratio: f32,
-    /// Largest distance of an inlier from its epipolar line, pixels.
+    /// Maximum distance of an inlier from its epipolar line, pixels.
     pub(crate) max_error_px: f64,
-    /// Rotation that displaces camera 2 from its pose before triangulation, degrees.
+    /// Rotation that perturbs camera 2 before triangulation, degrees.
     pub(crate) knock_deg: f64,
 }
 
@@ -82,12 +82,13 @@ pub(crate) struct Motion {
     pub(crate) found: RigidTransform,
     /// The same after bundle adjustment.
     pub(crate) cam2_from_cam1: RigidTransform,
-    /// Number of inliers in front of both cameras for each of the four poses of E, most first.
+    /// Number of inliers in front of both cameras for each of the four poses of E, in descending
+    /// order.
     pub(crate) num_in_front: [usize; 4],
     /// Root mean square reprojection error before and after bundle adjustment, pixels.
     pub(crate) error_px: [f64; 2],
     pub(crate) points: Vec<CloudPoint>,
-    /// Every pixel with a match in its row, or the reason for having none.
+    /// Dense points from stereo matching, or the reason why there are none.
     pub(crate) surface: Result<Surface, String>,
 }
 
@@ -102,7 +103,7 @@ pub(crate) struct Answer {
     /// Inlier mask over the matches.
     pub(crate) inliers: Vec<bool>,
     pub(crate) verdict: Verdict,
-    /// Present for the verdicts that have a cloud.
+    /// Present if the verdict allows a cloud.
     pub(crate) motion: Option<Motion>,
 }
 
@@ -119,7 +120,7 @@ impl Motion {
         let numbers = places.flat_map(|place| place.iter()).chain(&self.error_px);
         let surface = self.surface.iter().flat_map(|surface| &surface.points);
         let surface = surface.flat_map(|(place, _)| place);
-        // Written so that NaN fails.
+        // Written so that NaN is rejected.
         is_motion(&self.found)
             && is_motion(&self.cam2_from_cam1)
             && numbers.into_iter().all(|x| x.abs() < 1e12)
@@ -133,7 +134,7 @@ impl Answer {
         [self.keypoints[0][i as usize], self.keypoints[1][j as usize]]
     }
 
-    /// Returns the inlier matches, or the outlier matches.
+    /// Returns the inlier matches, or the outliers.
     pub(crate) fn matches_that(&self, agree: bool) -> impl Iterator<Item = (u32, u32)> {
         let matches = self.matches.iter().zip(&self.inliers);
         matches.filter_map(move |(pair, is_inlier)| (*is_inlier == agree).then_some(*pair))
@@ -199,7 +200,7 @@ impl question::Question for Question {
     fn fits(&self, answer: &Answer) -> bool {
         let nums = answer.keypoints.each_ref().map(Vec::len);
         let is_there = |(i, j): &(u32, u32)| (*i as usize) < nums[0] && (*j as usize) < nums[1];
-        // Written so that NaN fails.
+        // Written so that NaN is rejected.
         let is_place = |pixel: &Point2<f64>| pixel.iter().all(|x| x.abs() < 1e6);
         answer.keypoints.iter().flatten().all(is_place)
             && answer.matches.iter().all(is_there)

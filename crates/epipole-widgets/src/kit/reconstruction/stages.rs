@@ -17,14 +17,13 @@ use epipole::progress::Status;
 use epipole::sfm::{TwoViewReconstructionOptions, two_view_reconstruction};
 use nalgebra::Point2;
 
-/// Maximum number of features per photograph; more cost time and show nothing new.
+/// Maximum number of features per photograph; more cost time without visible benefit.
 const MAX_FEATURES: usize = 3000;
 
 impl Question {
     /// Runs every stage in order.
     ///
-    /// # Errors
-    /// As the stages, and [`Error::Canceled`] if `progress` ended it.
+    /// # Errors As the stages, and [`Error::Canceled`] if `progress` cancels.
     pub(super) fn follow(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         tell(progress, 0.0)?;
         let pictures = self.photographs(progress)?;
@@ -86,7 +85,7 @@ impl Question {
         Ok(pairs.collect())
     }
 
-    /// Reconstructs a pair with depth from its inliers; `None` if hardly any point is found.
+    /// Reconstructs a pair with depth from its inliers; `None` if there are hardly any points.
     fn reconstruct(
         &self,
         judged: &Judged,

@@ -14,24 +14,24 @@ use image::RgbImage;
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-/// Longer side of the rectified images, pixels; more show nothing new in a figure.
+/// Longer side of the rectified images, pixels; more has no visible benefit in a figure.
 const LONGEST_PX: u32 = 480;
-/// Maximum number of disparities, for speed; the farthest are left out.
+/// Maximum number of disparities, for speed; those of the farthest points are dropped.
 const MOST_DISPARITIES: u32 = 192;
-/// Smallest consistent region, pixels; smaller ones are matching errors.
+/// Minimum size of a consistent region, pixels; smaller ones are matching errors.
 const SPECKLE_PX: u32 = 150;
 
 /// The pixels of camera 1 with known depth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Surface {
     /// Positions in the frame of camera 1, in units of the baseline, and colors. The first quarter
-    /// is an even subsample; both parts are in row order.
+    /// is a regular subsample; both parts are in row order.
     pub(crate) points: Vec<([f32; 3], [u8; 3])>,
     num_coarse: u32,
 }
 
 impl Surface {
-    /// Returns the even subsample, as dense as a figure can show.
+    /// Returns the regular subsample, dense enough for a figure.
     pub(crate) fn coarse(&self) -> &[([f32; 3], [u8; 3])] {
         &self.points[..(self.num_coarse as usize).min(self.points.len())]
     }
@@ -51,7 +51,7 @@ impl Surface {
 ///
 /// * `photographs`, `cameras`: the pair, without distortion; equal sizes
 /// * `cam2_from_cam1`: the motion, in units of the baseline
-/// * `places`: points seen by both cameras, in the frame of camera 1
+/// * `places`: points visible to both cameras, in the frame of camera 1
 ///
 /// # Errors
 /// As [`rectify_calibrated`], `disparity_range` of the rig, [`RectifiedPair::new`] and
@@ -67,7 +67,7 @@ pub(super) fn surface(
     let shrunk = (f64::from(LONGEST_PX) / f64::from(width.max(height))).min(1.0);
     let side = |length: u32| (f64::from(length) * shrunk).round().max(1.0) as u32;
     let options = RectifyOptions::default()
-        // Keep everything that a camera saw, not only the common rectangle.
+        // Keeps all pixels of the photographs, not only the common rectangle.
         .with_alpha(1.0)
         .with_size(Some((side(width), side(height))));
     let rig = rectify_calibrated(cameras, cam2_from_cam1, &options)?;
@@ -82,7 +82,7 @@ pub(super) fn surface(
             progress(f64::from(status.share))
         })
     })?;
-    // Every other pixel of every other row first, then the rest.
+    // First every other pixel of every other row, then the rest.
     let part = |is_coarse: bool| -> Result<PointCloud, Error> {
         let value = |index: u32| {
             let (u, v) = (index % found.width(), index / found.width());

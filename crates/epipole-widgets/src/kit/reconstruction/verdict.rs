@@ -1,4 +1,4 @@
-//! Configuration of a pair, judged from its matches.
+//! Verdict on the configuration of a pair, from its matches.
 
 use epipole::Error;
 use epipole::camera::{Camera, RigidTransform};
@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 
 /// Minimum number of matches for a verdict.
 pub(crate) const MIN_NUM_MATCHES: usize = 15;
-/// Smallest accepted median triangulation angle of the inliers, degrees.
+/// Minimum accepted median triangulation angle of the inliers, degrees.
 const MIN_MEDIAN_ANGLE_DEG: f64 = 0.75;
-/// Inlier gain of a rotation-only model from which another focal length is reported.
+/// Minimum inlier gain of a rotation-only model with another focal length for reporting it.
 const MIN_GAIN: f64 = 1.05;
 
 /// Configuration of a pair.
@@ -39,7 +39,7 @@ pub(crate) enum Verdict {
         /// Factor on the given focal length.
         focal_factor: f64,
     },
-    /// A motion too small: rays meet at this median angle in degrees.
+    /// Too small a motion: rays intersect at this median angle in degrees.
     Narrow(f64),
 }
 
@@ -48,15 +48,14 @@ pub(super) struct Judged {
     pub(super) verdict: Verdict,
     /// Inlier mask over the matches.
     pub(super) inliers: Vec<bool>,
-    /// Present if points can be triangulated.
+    /// Relative pose, if points can be triangulated.
     pub(super) cam2_from_cam1: Option<RigidTransform>,
     pub(super) median_angle_deg: f64,
 }
 
 /// Judges matches; inliers are at most `max_error_px` from their epipolar lines.
 ///
-/// # Errors
-/// For values that are not finite; matches without consensus are a verdict.
+/// # Errors For values that are not finite; a lack of consensus is a verdict, not an error.
 pub(super) fn judge(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     cameras: &[Camera; 2],
@@ -79,7 +78,7 @@ pub(super) fn judge(
         match estimate_two_view_calibrated(pixels1, pixels2, cameras.each_ref(), &options, &mut ())
         {
             Ok(report) => report,
-            // Wrong matches have no consensus, and matches at one place determine nothing.
+            // Wrong matches give no consensus, and coincident matches determine no model.
             Err(
                 Error::NoConsensus { .. }
                 | Error::Degenerate { .. }
@@ -95,7 +94,7 @@ pub(super) fn judge(
         (report.cam2_from_cam1).map_or(0.0, |motion| motion.rotation.angle().to_degrees());
     let fundamental_won = matches!(report.model, TwoViewModel::Fundamental(_));
     let seen = match report.configuration {
-        // A degenerate model's inliers are not worth showing.
+        // The inliers of a degenerate model are meaningless.
         Configuration::Degenerate => return Ok(nothing(Verdict::NoConsensus)),
         Configuration::Panoramic => Verdict::Turned(turn_deg),
         _ if median_angle_deg < MIN_MEDIAN_ANGLE_DEG => Verdict::Narrow(median_angle_deg),
@@ -114,7 +113,7 @@ pub(super) fn judge(
     })
 }
 
-/// Returns the verdict of a rotation with another focal length and its inliers, if that explains
+/// Returns the verdict of a rotation with another focal length and its inliers, if it explains
 /// more: with a wrong focal length, a rotation looks like a plane or like another rotation with
 /// fewer inliers.
 fn turned_otherwise(

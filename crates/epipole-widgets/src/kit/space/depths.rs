@@ -1,11 +1,11 @@
-//! Depth of the nearest surface point in each place of a picture: what a cloud hides.
+//! Coarse depth map of the surface points in a view, for hiding marks behind them.
 
 use crate::canvas::Place;
 use crate::contract::Rect;
 
 /// Side of a cell, CSS pixels.
 const CELL: f64 = 3.0;
-/// A mark is hidden if it is this much farther than the surface, relative to its depth.
+/// Minimum relative distance behind the surface at which a mark is hidden.
 const MARGIN: f64 = 0.012;
 
 /// Minimum depths in cells of a panel.
@@ -17,7 +17,7 @@ pub(super) struct Depths {
 }
 
 impl Depths {
-    /// No surface yet in this panel.
+    /// Creates an empty map for a panel.
     pub(super) fn new(rect: Rect) -> Self {
         let num_cells = |size: f64| (size / CELL).ceil().max(1.0) as usize;
         let (columns, rows) = (num_cells(rect.width), num_cells(rect.height));
@@ -29,12 +29,12 @@ impl Depths {
         }
     }
 
-    /// Whether there is no surface at all.
+    /// Returns whether there is no surface at all.
     pub(super) fn is_empty(&self) -> bool {
         self.is_empty
     }
 
-    /// Adds a point of a surface that covers `radius` CSS pixels around its place.
+    /// Adds a point of a surface that covers `radius` CSS pixels around its position.
     pub(super) fn cover(&mut self, (x, y): Place, radius: f64, depth: f64) {
         let rows = self.nearest.len() / self.columns;
         let range = |middle: f64, start: f64, count: usize| {
@@ -52,7 +52,7 @@ impl Depths {
         self.is_empty = false;
     }
 
-    /// Returns whether the surface hides a mark at a place and depth.
+    /// Returns whether the surface hides a mark at a position and depth.
     pub(super) fn hides(&self, (x, y): Place, depth: f64) -> bool {
         if !self.rect.contains((x, y)) {
             return false;

@@ -1,5 +1,5 @@
-//! Drawing in three dimensions: colored points, cameras, a ground and axes, far to near. Points
-//! hide lines, which are dashed there.
+//! Drawing in 3D: colored points, cameras, a ground and axes, far to near. Lines hidden by points
+//! are dashed.
 //!
 //! Coordinates are as in the chapters and in camera 1: x right, y **down**, z forward.
 
@@ -21,26 +21,26 @@ mod order;
 
 use self::order::{Mark, Placed, arrange};
 
-/// Minimum panel width with a handle for panning, CSS pixels.
+/// Minimum panel width for the pan handle, CSS pixels.
 const SMALLEST: f64 = 300.0;
 /// Size of labels, CSS pixels.
 const TEXT: f64 = 13.0;
 
-/// A scene in the reader's view, collected mark by mark and then drawn.
+/// A scene in the reader's view: marks are collected, then drawn.
 pub(crate) struct Space<'a> {
     lens: Lens,
     zoom: f64,
-    /// Drawn first, in their order.
+    /// Lines of the ground, drawn first.
     ground: Vec<(Place, Place, Stroke)>,
-    /// Far to near.
+    /// Photographs, far to near.
     photographs: Vec<Standing<'a>>,
     marks: Vec<Placed>,
     labels: Vec<(Place, &'static str, Role)>,
 }
 
 impl<'a> Space<'a> {
-    /// Creates an empty scene in a panel of [`Orbit::panel`]; `None` if there is no room, or the
-    /// subject is not finite.
+    /// Creates an empty scene in a panel of [`Orbit::panel`]; `None` if the panel has no size, or
+    /// the subject is not finite.
     pub(crate) fn new(panel: &Panel, orbit: &Orbit, subject: &Subject) -> Option<Self> {
         let size = (panel.rect.width, panel.rect.height);
         let middle = panel.canvas_from_world(orbit.middle());
@@ -54,8 +54,8 @@ impl<'a> Space<'a> {
         })
     }
 
-    /// Adds photographs that hide what is behind them, each `depth` in front of its camera. Must
-    /// precede all marks except the ground.
+    /// Adds photographs that hide the marks behind them, each `depth` in front of its camera. Must
+    /// precede all marks except for the ground.
     pub(crate) fn stand<'b: 'a>(
         &mut self,
         photographs: impl IntoIterator<Item = (&'b PosedCamera, &'a RgbImage)>,
@@ -83,12 +83,13 @@ impl<'a> Space<'a> {
         self.lens.eye.cam_from_world * point
     }
 
-    /// Returns the CSS pixels per scene unit, across the view at the center of the scene.
+    /// Returns the CSS pixels per scene unit, perpendicular to the viewing direction at the center
+    /// of the scene.
     pub(crate) fn scale(&self) -> f64 {
         self.lens.eye.camera.intrinsics.fu_px() / self.lens.distance
     }
 
-    /// Projects a point; returns its position and depth, `None` behind the reader.
+    /// Projects a point. Returns its position and depth; `None` behind the reader.
     pub(crate) fn place(&self, point: &Point3<f64>) -> Option<(Place, f64)> {
         self.lens.shown(&self.in_eye(point))
     }
@@ -100,7 +101,7 @@ impl<'a> Space<'a> {
         if a.z.is_nan() || b.z.is_nan() || a.z.max(b.z) <= nearest {
             return None;
         }
-        // Move the nearer end along the segment to the near plane.
+        // Moves the nearer end along the segment to the near plane.
         let (nearer, farther) = if a.z < b.z { (&mut a, b) } else { (&mut b, a) };
         if nearer.z < nearest {
             let share = (nearest - nearer.z) / (farther.z - nearer.z);
@@ -123,8 +124,8 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Adds a point of a surface, without a rim, so that neighbors merge, also where it is
-    /// enlarged; `side` is that of its square at the scene's center without zoom, CSS pixels.
+    /// Adds a point of a surface, without a rim, so that neighbors merge at any zoom; `side` is
+    /// that of its square at the scene's center without zoom, CSS pixels.
     pub(crate) fn speck(&mut self, point: &Point3<f64>, side: f64, color: Rgb) {
         let in_eye = self.in_eye(point);
         if let Some((place, depth)) = self.lens.shown(&in_eye) {
@@ -162,7 +163,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Adds a flat convex face, which is translucent.
+    /// Adds a flat, convex, translucent face.
     pub(crate) fn face(&mut self, corners: &[Point3<f64>], role: Role, opacity: f64) {
         let corners: Vec<_> = corners.iter().map(|corner| self.in_eye(corner)).collect();
         if corners
@@ -202,8 +203,8 @@ impl<'a> Space<'a> {
         self.push(&middle, &places, Mark::Facet(places, color, outline));
     }
 
-    /// Adds a camera: its center, and the outline of its picture at the depth `depth`, upper edge
-    /// thicker.
+    /// Adds a camera: its center, and the outline of its image at distance `depth`, with a thicker
+    /// upper edge.
     pub(crate) fn frustum(
         &mut self,
         camera: &PosedCamera,
@@ -225,7 +226,7 @@ impl<'a> Space<'a> {
         self.marker(&center, 4.5, shape, role);
     }
 
-    /// Returns the position of a pixel on a camera's picture at the depth `depth`, in the world.
+    /// Returns the world position of a pixel on a camera's image at distance `depth`.
     pub(crate) fn on_picture(
         &self,
         camera: &PosedCamera,
@@ -235,7 +236,7 @@ impl<'a> Space<'a> {
         camera.center_in_world() + camera.ray_in_world(pixel) * depth
     }
 
-    /// Adds a grid on the horizontal plane at the height `y`, `lines` lines to each side of its
+    /// Adds a grid on the horizontal plane at height `y`, with `lines` lines to each side of its
     /// middle.
     pub(crate) fn ground(&mut self, middle: &Point3<f64>, y: f64, spacing: f64, lines: i32) {
         let snap = |value: f64| (value / spacing).round() * spacing;
@@ -280,7 +281,7 @@ impl<'a> Space<'a> {
         }
     }
 
-    /// Adds a name beside a point, on top of everything.
+    /// Adds a name beside a point, drawn above all marks.
     pub(crate) fn label(&mut self, point: &Point3<f64>, text: &'static str, role: Role) {
         if let Some((place, _)) = self.place(point) {
             self.labels.push((place, text, role));
@@ -330,7 +331,8 @@ impl<'a> Space<'a> {
         for (place, text, role) in self.labels {
             if panel.rect.contains(place) {
                 let mut around = Labels::around(place, 7.0);
-                // Objects extend upwards from the labeled point, so try below first.
+                // Objects extend upwards from the labeled point, so positions below it are tried
+                // first.
                 around.swap(0, 3);
                 let style = TextStyle::new(role, TEXT).cased();
                 labels.draw(canvas, &around, text, style);
@@ -339,14 +341,16 @@ impl<'a> Space<'a> {
     }
 }
 
-/// Draws the two handles of a space: a grip to turn it, and a small cross at its center to move it.
+/// Draws the two handles of a 3D view: a grip to rotate it, and a small cross at its center to pan
+/// it.
 pub(crate) fn draw_handles(canvas: &mut Canvas, panel: &Panel, orbit: &Orbit) {
     let middle = panel.canvas_from_world(orbit.middle());
     let grip = panel.canvas_from_world((orbit.turn_deg(), orbit.rise_deg()));
     let mut labels = Labels::new(panel.rect.inset(4.0));
     labels.keep_free(middle, 6.0);
     labels.keep_free(grip, 9.0);
-    // Small panels, as on phones, use two fingers, and the cross would only be in the way.
+    // Small panels, such as on phones, are panned with two fingers, and the cross would only be in
+    // the way.
     let is_small = panel.rect.width < SMALLEST;
     let marks = [(grip, 9.0, "turn"), (middle, 5.0, "move")];
     canvas.clipped(panel.rect.inset(1.0), |canvas| {

@@ -1,5 +1,5 @@
-//! Order of drawing: far to near, lines and faces depth-tested with the points of surfaces, and
-//! dashed where those hide them.
+//! Drawing order: far to near, with lines and faces depth-tested against the points of surfaces,
+//! and hidden lines dashed.
 
 use super::depths::Depths;
 use crate::canvas::{Dash, Place, Shape, Stroke};
@@ -8,19 +8,19 @@ use crate::kit::standing::{Screen, Standing};
 use crate::theme::{Rgb, Role};
 use nalgebra::Point3;
 
-/// Distance between the places at which a line is tested, CSS pixels, and their maximum number.
+/// Spacing of the positions at which a line is tested, CSS pixels, and their maximum number.
 const STEP: f64 = 4.0;
 const MOST_STEPS: f64 = 300.0;
-/// Minimum number of steps of a hidden piece, so that single points do not cut a line.
+/// Minimum number of steps of a hidden piece, so that isolated points do not cut a line.
 const FEWEST: usize = 3;
-/// Minimum width of a line whose hidden pieces are dashed, CSS pixels.
+/// Minimum width of a line whose hidden pieces are drawn dashed, CSS pixels.
 const LEAST_WIDTH: f64 = 1.0;
 
 pub(super) enum Mark {
     Dot(Place, f64, Rgb),
     Speck(Place, f64, Rgb),
     Marker(Place, f64, Shape, Role),
-    /// The ends of a line in the eye's frame and on the page.
+    /// A line, by its ends in the eye's frame and on the page.
     Line([Point3<f64>; 2], [Place; 2], Stroke),
     Facet([Place; 4], Rgb, Stroke),
     Face(Screen, Role, f64),
@@ -37,7 +37,7 @@ pub(super) struct Placed {
 
 /// Stages of drawing within a layer.
 mod stage {
-    /// Surfaces, far to near, among faces that hide some of their points.
+    /// Surfaces, far to near, interleaved with faces that hide some of their points.
     pub(super) const SURFACES: u64 = 0;
     /// Lines in front of the surfaces, and hidden ones, dashed.
     pub(super) const LINES: u64 = 1;
@@ -45,7 +45,7 @@ mod stage {
     pub(super) const MARKERS: u64 = 2;
 }
 
-/// Sorts marks for drawing. Equally deep ones keep their order. `photographs` are far to near.
+/// Sorts marks for drawing. Marks at equal depth keep their order. `photographs` are far to near.
 pub(super) fn arrange(
     marks: Vec<Placed>,
     photographs: &[Standing<'_>],
@@ -65,7 +65,7 @@ pub(super) fn arrange(
             .collect(),
     };
     let faces = faces(&placed, &depths);
-    // Sort keys instead of marks, which are ten times as large.
+    // Sorts keys instead of marks, which are ten times as large.
     let mut order: Vec<(u64, u64, u32)> = (placed.iter().enumerate())
         .map(|(index, mark)| {
             let rank = rank(index, mark, &placed, &faces, &depths);
@@ -80,7 +80,7 @@ pub(super) fn arrange(
         .collect()
 }
 
-/// Faces that may hide points, far to near; none where there is no surface.
+/// Returns the faces that may hide points, far to near; none without a surface.
 fn faces(placed: &[Placed], depths: &Depths) -> Vec<usize> {
     let is_face = |index: &usize| matches!(placed[*index].mark, Mark::Face(..));
     let mut faces: Vec<usize> = match depths.is_empty() {
@@ -91,7 +91,7 @@ fn faces(placed: &[Placed], depths: &Depths) -> Vec<usize> {
     faces
 }
 
-/// The layer, the stage, and the place among the faces.
+/// Returns a sort key: layer, stage, and rank among the faces.
 fn rank(index: usize, mark: &Placed, placed: &[Placed], faces: &[usize], depths: &Depths) -> u64 {
     let is_visible = |place: Place| !depths.is_empty() && !depths.hides(place, mark.in_eye.z);
     let (stage, behind) = match &mark.mark {
@@ -114,7 +114,7 @@ fn rank(index: usize, mark: &Placed, placed: &[Placed], faces: &[usize], depths:
     (mark.layer as u64) << 32 | stage << 24 | behind as u64
 }
 
-/// Cuts a line into visible and hidden pieces; the hidden ones are dashed, or left out if thin.
+/// Cuts a line into visible and hidden pieces; hidden ones are dashed, or dropped if thin.
 fn cut(placed: Placed, photographs: &[Standing<'_>], depths: &Depths) -> Vec<Placed> {
     let Mark::Line(ends, places, stroke) = placed.mark else {
         return vec![placed];
@@ -197,7 +197,7 @@ fn runs(
     runs
 }
 
-/// The place at a fraction of a line on the page.
+/// Interpolates between the ends of a line on the page.
 fn between([from, to]: &[Place; 2], share: f64) -> Place {
     (
         from.0 + (to.0 - from.0) * share,
@@ -205,7 +205,7 @@ fn between([from, to]: &[Place; 2], share: f64) -> Place {
     )
 }
 
-/// The point of a segment that appears at a fraction of its image: inverse depths are linear there.
+/// Returns the point of a segment at a fraction of its image, along which inverse depth is linear.
 fn at([from, to]: &[Point3<f64>; 2], share: f64) -> Point3<f64> {
     let along = share * from.z / (to.z + share * (from.z - to.z));
     from + (to - from) * along
@@ -239,7 +239,8 @@ mod tests {
         }
     }
 
-    /// A line at a depth of 2 across the panel, and a wall in its middle third at another depth.
+    /// Cuts a line at a depth of 2 across the panel, with a wall in its middle third at another
+    /// depth.
     fn pieces(wall: f64) -> Vec<(bool, f64, f64)> {
         let stroke = Stroke::solid(Role::Ink, 2.0);
         let ends = [Point3::new(-1.0, 0.0, 2.0), Point3::new(1.0, 0.0, 2.0)];
@@ -278,7 +279,7 @@ mod tests {
     #[test]
     fn places_of_a_line_have_the_depths_of_perspective() {
         let ends = [Point3::new(-1.0, 0.0, 1.0), Point3::new(3.0, 0.0, 3.0)];
-        // Projections at -1 and 1: their middle, 0, shows the point at a quarter of the way.
+        // Projections at −1 and 1: their middle, 0, shows the point at a quarter of the way.
         let middle = at(&ends, 0.5);
         assert!((middle - Point3::new(0.0, 0.0, 1.5)).norm() < 1e-12);
         assert_eq!([at(&ends, 0.0), at(&ends, 1.0)], ends);
@@ -286,7 +287,7 @@ mod tests {
 
     #[test]
     fn points_behind_a_face_are_drawn_before_it_and_others_after_it() {
-        // A face slanted in depth: its middle is farther than the point in front of its near part.
+        // A face slanted in depth: its center is farther than the point in front of its near part.
         let corners = [(-1.0, 1.0), (1.0, 1.0), (1.0, 5.0), (-1.0, 5.0)]
             .map(|(x, z)| Point3::new(x, 2.0 - 0.3 * z, z));
         let places = corners.map(|corner| {
