@@ -1,4 +1,4 @@
-//! Arguments: from values to points, matrices and cameras.
+//! Conversion of arguments to points, matrices and cameras.
 
 use crate::fault::{Fault, Result};
 use crate::types::Types;
@@ -8,10 +8,10 @@ use epipole::nalgebra::{
     Const, Matrix3, OPoint, Quaternion, Rotation3, SMatrix, SVector, Translation3, UnitQuaternion,
 };
 
-/// Deviation of `Rᵀ R` from the identity, and of |q|² from 1, that passes as rounding.
+/// Deviation of `Rᵀ R` from the identity, and of |q|² from 1, that is attributed to rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Deviation of |q|² from 1 below which a quaternion is kept to the last bit.
+/// Deviation of |q|² from 1 below which a quaternion is not normalized, to keep it bit for bit.
 const LAST_BITS: f64 = 1e-14;
 
 /// A parameter of a function.
@@ -25,11 +25,11 @@ pub trait Argument: Sized {
     /// `TypeError` or `RangeError`.
     fn read(name: &str, value: &Value) -> Result<Self>;
 
-    /// Whether the caller may leave it out.
+    /// Whether the caller may omit it.
     const IS_OPTIONAL: bool = false;
 }
 
-/// Error of an argument that is not of the expected type.
+/// Returns the error for an argument that is not of the expected type.
 pub(crate) fn not(name: &str, expected: &str, value: &Value) -> Fault {
     let got = match value {
         Value::Nothing => "missing".to_owned(),
@@ -108,7 +108,7 @@ impl<T: Argument> Argument for Vec<T> {
 pub struct Vectors<const D: usize>(pub Vec<SVector<f64, D>>);
 
 impl<const D: usize> Vectors<D> {
-    /// The same as points.
+    /// Converts the vectors to points.
     pub fn points(self) -> Vec<OPoint<f64, Const<D>>> {
         self.0.into_iter().map(OPoint::from).collect()
     }
@@ -142,7 +142,7 @@ impl<const D: usize> Argument for Vectors<D> {
 pub struct Sample<const N: usize, const D: usize>(pub [SVector<f64, D>; N]);
 
 impl<const N: usize, const D: usize> Sample<N, D> {
-    /// The same as points.
+    /// Converts the vectors to points.
     pub fn points(self) -> [OPoint<f64, Const<D>>; N] {
         self.0.map(OPoint::from)
     }
@@ -162,7 +162,7 @@ impl<const N: usize, const D: usize> Argument for Sample<N, D> {
     }
 }
 
-/// Numbers of an array of rows with `width` each, or of one flat array. Refuses NaN.
+/// Reads the numbers of an array of rows of length `width`, or of one flat array. Rejects NaN.
 fn flat(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f64>> {
     let out = rows(name, value, width, expected)?;
     match out.iter().position(|number| number.is_nan()) {
@@ -174,7 +174,7 @@ fn flat(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f
     }
 }
 
-/// The same with NaN.
+/// Reads numbers like `flat`, but accepts NaN.
 pub(crate) fn rows(name: &str, value: &Value, width: usize, expected: &str) -> Result<Vec<f64>> {
     let mut out = Vec::new();
     if let Some(numbers) = value.numbers() {
@@ -206,7 +206,8 @@ pub(crate) fn rows(name: &str, value: &Value, width: usize, expected: &str) -> R
     Ok(out)
 }
 
-/// Finite numbers of a matrix by row. One function for matrices of all sizes.
+/// Reads the finite numbers of a matrix, row by row. Not generic, so that matrices of all sizes
+/// share one copy.
 fn matrix(name: &str, value: &Value, rows: usize, columns: usize) -> Result<Vec<f64>> {
     let width = if columns == 1 { rows } else { columns };
     let numbers = flat(name, value, width, "numbers")?;

@@ -1,4 +1,4 @@
-//! The wasm interface: one exported function, and values of either side.
+//! The wasm interface: one exported function, and conversion of values.
 
 use crate::fault::Fault;
 use crate::value::{Key, Value};
@@ -11,14 +11,13 @@ use std::ops::ControlFlow;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
-/// Depth of nested arrays and objects above which an argument is refused.
+/// Maximum depth of nested arrays and objects in an argument.
 const MAX_DEPTH: usize = 16;
 
-/// Calls a function by name. `report`, if given, receives stage and share of the work, and cancels
-/// by returning false.
+/// Calls a function by name. `report`, if given, receives the stage and the fraction done, and
+/// cancels by returning false.
 ///
-/// # Errors
-/// An array of class or code, and message.
+/// # Errors An array of class or code, and message.
 #[wasm_bindgen]
 pub fn call(name: &str, given: &Array, report: Option<Function>) -> Result<JsValue, JsValue> {
     let given: Vec<Value> = given.iter().map(|value| from_js(&value, 0)).collect();
@@ -100,19 +99,19 @@ fn typed_from_js(value: &JsValue) -> Option<Value> {
     if let Some(list) = value.dyn_ref::<Int32Array>() {
         return Some(Value::Integers(list.to_vec()));
     }
-    // Any other kind of array becomes numbers.
+    // Any other typed array is converted to numbers.
     ArrayBuffer::is_view(value).then(|| Value::Doubles(Float64Array::new(value).to_vec()))
 }
 
 fn record_from_js(object: &Object, depth: usize) -> Value {
     let get = |key: &JsValue| from_js(&Reflect::get(object, key).unwrap_or_default(), depth + 1);
-    // An undefined option has its default; null is a value.
+    // An undefined option takes its default; null is a value.
     let mut entries: Vec<(Key, Value)> = Object::keys(object)
         .iter()
         .filter(|key| !Reflect::get(object, key).unwrap_or_default().is_undefined())
         .map(|key| (Key::from(key.as_string().unwrap_or_default()), get(&key)))
         .collect();
-    // Properties of an ImageData are those of its prototype, in Chromium all but the data.
+    // The properties of an ImageData belong to its prototype, in Chromium all except for the data.
     if entries.iter().all(|(key, _)| key == "data") {
         for name in ["width", "height", "data"] {
             let is_own = entries.iter().any(|(key, _)| key == name);
@@ -140,7 +139,7 @@ fn to_js(value: Value) -> JsValue {
         Value::Record(entries) => {
             let object = Object::new();
             for (key, value) in entries {
-                // A new plain object takes any property.
+                // A new plain object accepts any property.
                 let _ = Reflect::set(&object, &JsValue::from_str(&key), &to_js(value));
             }
             object.into()

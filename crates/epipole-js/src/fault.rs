@@ -1,12 +1,12 @@
-//! Errors of JavaScript.
+//! Errors thrown in JavaScript.
 
 use epipole::Error;
 
 /// Reason why a call has no result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
-    /// Class or code of the error: `TypeError`, `RangeError`, `AbortError`, or for data without a
-    /// result `TooFew`, `Degenerate`, `NoConsensus`.
+    /// Class or code of the error: `TypeError`, `RangeError`, `AbortError`, or, for data that give
+    /// no result, `TooFew`, `Degenerate`, `NoConsensus`.
     pub kind: &'static str,
     /// Message for the caller.
     pub message: String,
@@ -16,13 +16,13 @@ pub struct Fault {
 pub type Result<T> = std::result::Result<T, Fault>;
 
 impl Fault {
-    /// A wrong type.
+    /// Creates the error for a wrong type.
     pub(crate) fn of_type(message: String) -> Self {
         let kind = "TypeError";
         Self { kind, message }
     }
 
-    /// A value out of range.
+    /// Creates the error for a value out of range.
     pub(crate) fn of_range(message: String) -> Self {
         let kind = "RangeError";
         Self { kind, message }

@@ -16,7 +16,7 @@ use epipole::feature::{
 };
 use epipole::imaging::GrayImage32;
 
-/// Bytes of a descriptor of bits.
+/// Number of bytes of a binary descriptor.
 const BYTES_OF_BITS: usize = 32;
 
 /// A list of keypoints.

@@ -5,29 +5,29 @@ use crate::fault::{Fault, Result};
 use crate::value::{Value, camel};
 use epipole::progress::Monitor;
 
-/// A function that JavaScript calls by its name.
+/// A function that JavaScript calls by name.
 #[derive(Debug)]
 pub struct Function {
-    /// Name in Rust; that of JavaScript is in camel case.
+    /// Name in Rust; JavaScript's is in camel case.
     pub name: &'static str,
     /// Reads the arguments, computes, and returns plain data.
     pub call: fn(&[Value], &mut dyn Monitor) -> Result<Value>,
 }
 
-/// The same in TypeScript.
+/// Signature of a function in TypeScript.
 #[derive(Debug)]
 pub struct Signature {
     /// Name in JavaScript.
     pub name: String,
     /// Documentation, line by line.
     pub docs: &'static [&'static str],
-    /// Names, types, and whether they may be left out.
+    /// Names, types, and whether they are optional.
     pub parameters: Vec<(String, String, bool)>,
     /// Type of the result.
     pub result: String,
 }
 
-/// Arguments that are left to read.
+/// Arguments yet to be read.
 pub(crate) struct Arguments<'a> {
     given: std::slice::Iter<'a, Value>,
 }
@@ -52,7 +52,7 @@ impl<'a> Arguments<'a> {
 
 /// Declares the functions of a file: `FUNCTIONS` and `signatures`.
 ///
-/// The name behind the semicolon is that of the monitor.
+/// The name after the semicolon is that of the monitor.
 macro_rules! functions {
     ($($(#[doc = $doc:literal])+
        fn $name:ident($($arg:ident: $type:ty),* $(,)? $(; $monitor:ident)?) -> $out:ty $body:block

@@ -1,4 +1,4 @@
-//! Homographies, and similarities of the plane.
+//! Homographies, and similarity transforms of the plane.
 
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;

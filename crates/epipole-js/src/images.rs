@@ -1,4 +1,4 @@
-//! Images: gray values, or colors of eight bits.
+//! Images: gray values, or colors with eight bits per channel.
 
 use crate::argument::{Argument, not};
 use crate::fault::{Fault, Result};
@@ -10,7 +10,7 @@ use epipole::feature::photo_to_gray;
 use epipole::image::{self, GrayImage, ImageBuffer, Pixel, RgbImage, RgbaImage};
 use epipole::imaging::{GrayImage32, gray_from_values, gray_to_f32, rgb_to_gray};
 
-/// Values beyond [0, 1] that filters may leave.
+/// Amount by which filters may exceed [0, 1].
 const OVERSHOOT: f32 = 0.5;
 
 /// Maximum side of an image, pixels.
@@ -18,13 +18,14 @@ const MAX_SIDE: u32 = 65_535;
 
 /// An image of any kind.
 pub enum Image {
-    /// Bytes, one a pixel.
+    /// Gray values as bytes.
     Gray8(GrayImage),
-    /// Bytes, three a pixel.
+    /// Red, green, blue as bytes.
     Rgb8(RgbImage),
-    /// Bytes, four a pixel: an `ImageData`. Opacity is ignored where gray values are needed.
+    /// Red, green, blue, alpha as bytes, such as an `ImageData`. Alpha is ignored when converted to
+    /// gray.
     Rgba8(RgbaImage),
-    /// Floats, one a pixel.
+    /// Gray values as floats.
     Gray32(GrayImage32),
 }
 
@@ -41,16 +42,16 @@ macro_rules! same_kind {
 }
 pub(crate) use same_kind;
 
-/// A gray image of floats with black 0 and white 1, from an image of any kind.
+/// A gray image of floats, with black 0 and white 1, from an image of any kind.
 pub struct Gray(pub GrayImage32);
 
-/// Colors of a photo: gray values of bytes count three times.
+/// Colors of a photo; gray bytes are repeated in all three channels.
 pub struct Rgb(pub RgbImage);
 
-/// Gray values of any range: bytes count as value / 255, floats stay as they are.
+/// Gray values of any range: bytes are divided by 255, floats remain unchanged.
 pub struct Field(pub GrayImage32);
 
-/// Refuses results with sides that no image has.
+/// Rejects sizes that no image can have.
 pub(crate) fn require_size(name: &str, width: u32, height: u32) -> Result<()> {
     let side = 1..=MAX_SIDE;
     match side.contains(&width) && side.contains(&height) {
@@ -61,7 +62,7 @@ pub(crate) fn require_size(name: &str, width: u32, height: u32) -> Result<()> {
     }
 }
 
-/// Refuses images of another size than their camera's.
+/// Rejects images whose size differs from their camera's.
 pub(crate) fn require_camera(name: &str, image: &Image, camera: &Camera) -> Result<()> {
     let (width, height) = image.dimensions();
     match (width, height) == (camera.width, camera.height) {
@@ -74,7 +75,7 @@ pub(crate) fn require_camera(name: &str, image: &Image, camera: &Camera) -> Resu
 }
 
 impl Image {
-    /// Width and height, pixels.
+    /// Returns width and height, pixels.
     pub fn dimensions(&self) -> (u32, u32) {
         match self {
             Self::Gray8(image) => image.dimensions(),
@@ -84,7 +85,7 @@ impl Image {
         }
     }
 
-    /// Gray values of bytes; floats stay as they are.
+    /// Converts bytes to gray; floats remain unchanged.
     pub fn into_gray(self) -> Self {
         match self {
             Self::Rgb8(image) => Self::Gray8(rgb_to_gray(&image)),

@@ -1,4 +1,4 @@
-//! Filters of gray images, warps of images of any kind.
+//! Filters for gray images, and warps for images of any kind.
 
 use crate::fault::Result;
 use crate::functions::functions;
@@ -34,7 +34,7 @@ impl From<imaging::Gradient> for Gradient {
     }
 }
 
-/// [`WarpOptions`] in which the size of the result may be left out.
+/// [`WarpOptions`] with an optional size of the result.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(rename = "WarpOptions", default, deny_unknown_fields)]
 struct Warp {

@@ -1,9 +1,9 @@
-//! The core for JavaScript: functions of plain data, by name.
+//! The core for JavaScript: functions with plain data, called by name.
 //!
 //! A call reads its arguments ([`argument`], [`options`]), computes, and returns plain data
-//! ([`output`]); [`functions`] declares it. Files are named for the modules of the core. Each part
+//! ([`output`]); [`functions`] declares it. Files have the names of the core's modules. Each part
 //! is a cargo feature and a WebAssembly module; larger parts contain smaller ones. The same table
-//! gives the calls, the type declarations in `web/vision/src/api.ts`, and the native results that
+//! defines the calls, the type declarations in `web/vision/src/api.ts`, and the native results that
 //! tests compare bit for bit.
 
 pub mod argument;
@@ -53,7 +53,8 @@ use functions::{Function, Signature};
 use types::Types;
 use value::Value;
 
-/// Parts with the larger parts that contain them, smallest first: the features of `Cargo.toml`.
+/// Parts, smallest first, each with the larger parts that contain it; these are the features of
+/// `Cargo.toml`.
 pub const PARTS: &[(&str, &[&str])] = &[
     ("homography", &["geometry", "all"]),
     ("geometry", &["all"]),
@@ -70,7 +71,7 @@ pub struct Group {
     pub functions: &'static [Function],
 }
 
-/// Functions of the parts of this build.
+/// Functions of the parts in this build.
 pub const GROUPS: &[Group] = &[
     #[cfg(feature = "homography")]
     Group {
@@ -174,7 +175,7 @@ pub const GROUPS: &[Group] = &[
     },
 ];
 
-/// Signatures of [`GROUPS`], in the same order.
+/// Returns the signatures of [`GROUPS`], in the same order.
 pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
     vec![
         #[cfg(feature = "homography")]
@@ -220,7 +221,7 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
     ]
 }
 
-/// Calls a function by its name in JavaScript.
+/// Calls a function by its JavaScript name.
 ///
 /// # Errors
 /// The error to throw.

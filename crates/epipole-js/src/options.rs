@@ -1,6 +1,6 @@
-//! Options: plain objects to the structs of the core, by serde.
+//! Options: conversion of plain objects to structs of the core, by serde.
 //!
-//! Fields that are not given have the core's defaults. Keys and variants are in camel case.
+//! Missing fields take the core's defaults. Keys and variants are in camel case.
 
 mod typescript;
 
@@ -34,7 +34,7 @@ impl<T: DeserializeOwned + Serialize + Default> Argument for Options<T> {
     }
 }
 
-/// Options of a function without any but those of control.
+/// Options of a function that takes only those of control.
 pub struct NoOptions;
 
 impl Argument for NoOptions {
@@ -76,7 +76,7 @@ impl de::Error for Fault {
         Self::of_type(message.to_string())
     }
 
-    // Serde's own words bring its printing of values into every module.
+    // Serde's own message would add the code that prints values to every module.
     fn invalid_type(_: Unexpected<'_>, expected: &dyn Expected) -> Self {
         Self::of_type(format!("an option must be {expected}"))
     }
@@ -110,7 +110,7 @@ struct At<'a> {
 impl At<'_> {
     fn integer<T: TryFrom<i64>>(self, range: &str) -> Result<T> {
         let number = f64::read(self.name, self.value)?;
-        // Above 2⁵³ the caller's number is not the one that arrives.
+        // Above 2⁵³ integers are not exact.
         let is_exact = number.fract() == 0.0 && number.abs() <= 9_007_199_254_740_992.0;
         is_exact
             .then_some(number as i64)
@@ -306,7 +306,7 @@ impl<'de> SeqAccess<'de> for Elements<'_> {
     }
 }
 
-/// Entries of an object that are left.
+/// Remaining entries of an object.
 struct Fields<'a> {
     fields: &'static [&'static str],
     entries: &'a [(Key, Value)],

@@ -1,4 +1,4 @@
-//! Results of the core as values of JavaScript.
+//! Conversion of results of the core to JavaScript values.
 
 use crate::argument::{Argument, not};
 use crate::fault::{Fault, Result};
@@ -15,11 +15,11 @@ pub trait Output {
     /// Type in TypeScript.
     fn typescript(types: &mut Types) -> String;
 
-    /// Plain data.
+    /// Converts it to plain data.
     fn into_value(self) -> Value;
 }
 
-/// Makes plain objects of structs, field by field.
+/// Converts structs to plain objects, field by field.
 macro_rules! records {
     ($($(#[doc = $docs:literal])+ $type:ty as $name:ident {
         $($(#[doc = $field_docs:literal])+ $field:ident: $field_type:ty,)+
@@ -47,7 +47,7 @@ macro_rules! records {
 }
 pub(crate) use records;
 
-/// Declares structs, and makes plain objects of them.
+/// Declares structs, and converts them to plain objects.
 #[cfg(any(feature = "geometry", feature = "images"))]
 macro_rules! structs {
     ($($(#[doc = $docs:literal])+ $visible:vis struct $type:ident as $name:ident {
@@ -69,7 +69,7 @@ macro_rules! structs {
 #[cfg(any(feature = "geometry", feature = "images"))]
 pub(crate) use structs;
 
-/// Types that are as they are in JavaScript.
+/// Converts types that exist in JavaScript.
 macro_rules! plain {
     ($($type:ty => $name:literal, $value:ident => $into:expr;)+) => {$(
         impl Output for $type {
@@ -124,7 +124,7 @@ pub struct Text(pub String);
 /// A list of numbers.
 pub struct Numbers(pub Vec<f64>);
 
-/// A list of numbers of single precision.
+/// A list of single-precision numbers.
 pub struct Floats(pub Vec<f32>);
 
 /// A list of signed integers.
@@ -157,7 +157,7 @@ impl Argument for Indices {
 }
 
 impl Numbers {
-    /// Interleaved coordinates.
+    /// Interleaves coordinates.
     pub fn of_points<const D: usize>(points: &[OPoint<f64, Const<D>>]) -> Self {
         Self(
             points
@@ -167,7 +167,7 @@ impl Numbers {
         )
     }
 
-    /// Interleaved coordinates, NaN for failures.
+    /// Interleaves coordinates, with NaN for failures.
     pub fn or_nan<const D: usize>(
         rows: impl IntoIterator<Item = epipole::Result<SVector<f64, D>>>,
     ) -> Self {

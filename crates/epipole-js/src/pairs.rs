@@ -1,17 +1,16 @@
-//! Functions of one match, for many.
+//! Application of functions of one match to many.
 
 use crate::argument::Vectors;
 use crate::fault::{Fault, Result};
 use crate::output::Numbers;
 use epipole::nalgebra::{Const, OPoint};
 
-/// Points of D coordinates.
+/// Points with D coordinates.
 pub type Points<const D: usize> = Vec<OPoint<f64, Const<D>>>;
 
-/// Two lists of equal length.
+/// Pairs the elements of two lists of equal length.
 ///
-/// # Errors
-/// `RangeError` for different lengths.
+/// # Errors `RangeError` if lengths differ.
 pub fn zip<const D: usize, const E: usize>(
     (name1, first): (&str, Vectors<D>),
     (name2, second): (&str, Vectors<E>),
@@ -27,10 +26,9 @@ pub fn zip<const D: usize, const E: usize>(
     Ok((first, second))
 }
 
-/// One number for each match.
+/// Computes one number for each match.
 ///
-/// # Errors
-/// `RangeError` for different lengths.
+/// # Errors `RangeError` if lengths differ.
 pub fn numbers(
     pixels1: Vectors<2>,
     pixels2: Vectors<2>,

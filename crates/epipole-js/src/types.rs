@@ -1,4 +1,4 @@
-//! Type declarations of TypeScript, collected while signatures are written.
+//! TypeScript type declarations, collected while signatures are generated.
 
 use std::collections::BTreeMap;
 
@@ -43,7 +43,7 @@ impl Types {
             of: of.to_owned(),
             docs: docs.to_owned(),
         });
-        // The head of a generic interface carries its parameter.
+        // The head of a generic interface includes its parameter.
         let name = head.split('<').next().unwrap_or(head);
         let interface = Declaration::Interface {
             head: head.to_owned(),
@@ -53,8 +53,8 @@ impl Types {
         self.declarations.insert(name.to_owned(), interface);
     }
 
-    /// Adds the interface of an option struct, whose fields may all be left out. One that is there
-    /// keeps its defaults.
+    /// Adds the interface of an option struct, all of whose fields are optional. An existing
+    /// interface keeps its defaults.
     pub(crate) fn options(&mut self, name: &str, fields: &[(String, String)]) {
         if self.declarations.contains_key(name) {
             return;
@@ -81,7 +81,8 @@ impl Types {
         }
     }
 
-    /// Documents an option struct and its fields by `docs`: its own text for no field.
+    /// Documents option structs and their fields with texts from `docs`, which is called without a
+    /// field for the struct itself.
     pub fn document(&mut self, docs: impl Fn(&str, Option<&str>) -> Option<String>) {
         for (name, declaration) in &mut self.declarations {
             let Declaration::Interface {
@@ -111,7 +112,7 @@ impl Types {
         }
     }
 
-    /// All declarations, by name.
+    /// Returns all declarations, sorted by name.
     pub fn text(&self) -> String {
         let mut texts = Vec::new();
         for (name, declaration) in &self.declarations {
@@ -133,7 +134,7 @@ impl Types {
     }
 }
 
-/// A documentation comment with lines of at most 110 characters; nothing for no text.
+/// Formats a documentation comment with lines of at most 110 characters; empty for an empty text.
 pub fn comment(margin: &str, docs: &str) -> String {
     if docs.is_empty() {
         return String::new();

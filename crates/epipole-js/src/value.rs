@@ -1,4 +1,4 @@
-//! Values that cross the boundary: plain data, on either side.
+//! Plain data that crosses the boundary between Rust and JavaScript.
 
 use std::borrow::Cow;
 
@@ -30,12 +30,12 @@ pub enum Value {
     List(Vec<Value>),
     /// A plain object.
     Record(Vec<(Key, Value)>),
-    /// Anything else, by the name of its type.
+    /// Any other type, by its name.
     Other(String),
 }
 
 impl Value {
-    /// Description for messages, such as "a string".
+    /// Describes its type for messages, such as "a string".
     pub fn describe(&self) -> String {
         match self {
             Self::Nothing => "missing".to_owned(),
@@ -53,7 +53,7 @@ impl Value {
         }
     }
 
-    /// Numbers of a flat array of any element type.
+    /// Returns the numbers of a flat array with any element type.
     pub(crate) fn numbers(&self) -> Option<Cow<'_, [f64]>> {
         match self {
             Self::Doubles(list) => Some(Cow::Borrowed(list)),
@@ -66,7 +66,7 @@ impl Value {
         }
     }
 
-    /// Entry of a record; [`Value::Nothing`] if absent.
+    /// Returns an entry of a record; [`Value::Nothing`] if absent.
     pub(crate) fn get(&self, key: &str) -> &Value {
         let entries = match self {
             Self::Record(entries) => entries.as_slice(),
@@ -77,7 +77,8 @@ impl Value {
     }
 }
 
-/// `max_error_px` to `maxErrorPx`. Names that begin with a capital letter stay as they are.
+/// Converts `max_error_px` to `maxErrorPx`. Names that start with a capital letter remain
+/// unchanged.
 pub fn camel(name: &str) -> String {
     let mut out = String::new();
     if name.starts_with(|first: char| first.is_ascii_uppercase()) {

@@ -91,7 +91,7 @@ impl Argument for Board {
     }
 }
 
-/// Pixels of all marks, NaN for hidden ones.
+/// Returns the pixels of all marks, NaN for hidden ones.
 fn pixels(view: &BoardView) -> Numbers {
     let pixels = view.pixels.iter();
     let place = |pixel: &Option<Point2<f64>>| pixel.map_or([f64::NAN; 2], |p| [p.x, p.y]);

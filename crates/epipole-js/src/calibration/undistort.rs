@@ -1,4 +1,4 @@
-//! Photos redrawn without distortion, and by any map of pixels.
+//! Undistortion of photos, and warping by a pixel map.
 
 use crate::argument::{Argument, check_keys, entry, not};
 use crate::fault::{Fault, Result};
@@ -104,7 +104,7 @@ impl Argument for PixelMap {
     }
 }
 
-/// Undistortion of the core.
+/// Creates the undistortion of the core.
 fn of_camera(
     camera: &Camera,
     keep: Option<Setting<Keep>>,

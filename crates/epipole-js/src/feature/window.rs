@@ -1,4 +1,4 @@
-//! Structure tensor and shifts of one window.
+//! Structure tensor of a window, and its change when shifted.
 
 use crate::argument::{Argument, Vectors, entry, not};
 use crate::fault::Result;

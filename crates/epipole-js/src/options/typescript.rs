@@ -18,12 +18,12 @@ pub(super) fn declare<T: DeserializeOwned + Serialize + Default>(types: &mut Typ
     name
 }
 
-/// Type of any value.
+/// Returns the TypeScript type of any value.
 pub(super) fn declare_plain<T: DeserializeOwned>(types: &mut Types) -> String {
     written(&describe::<T>(), types)
 }
 
-/// A default in the notation of JavaScript.
+/// Formats a default as a JavaScript literal.
 #[cfg(not(target_arch = "wasm32"))]
 fn literal(value: &serde_json::Value) -> String {
     use serde_json::Value as Json;
@@ -44,7 +44,7 @@ fn literal(value: &serde_json::Value) -> String {
     }
 }
 
-/// A type in TypeScript; declares the interfaces of its structs.
+/// Formats a type in TypeScript; declares the interfaces of its structs.
 fn written(found: &Type, types: &mut Types) -> String {
     match found {
         Type::Bool => "boolean".to_owned(),

@@ -204,7 +204,7 @@ fn matches(name: &str, value: &Value) -> Result<Vec<Match>> {
         .collect())
 }
 
-/// Photos of the core.
+/// Converts photos for the core.
 pub(crate) fn photos(images: Vec<Rgb>) -> Vec<Photo> {
     let photo = |Rgb(image)| Photo {
         image,
