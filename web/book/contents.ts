@@ -5,7 +5,7 @@ function afterFirstFrame(work: () => void): void {
   requestAnimationFrame(() => setTimeout(work));
 }
 
-/** Scrolls the contents, not the page, to the present chapter. */
+/** Scrolls the contents, not the page, to the current chapter. */
 export function revealCurrentChapter(): void {
   const contents = document.getElementById("contents");
   const current = contents?.querySelector<HTMLElement>(".current");
@@ -32,7 +32,7 @@ export function followSections(): void {
   for (const link of document.querySelectorAll<HTMLAnchorElement>(".sections a")) {
     links.set(decodeURIComponent(link.hash.slice(1)), link);
   }
-  // Observe the sections, not their headings: measuring a heading would lay out the whole section.
+  // Observes the sections rather than their headings, since measuring a heading would lay out its whole section.
   const sections = new Map<HTMLElement, string>();
   for (const { id, parentElement: section } of document.querySelectorAll("article h2[id]")) {
     if (section && links.has(id)) sections.set(section, id);
@@ -61,7 +61,7 @@ export function followSections(): void {
 
 const FOLDED = "epipole-contents";
 
-/** Lets the reader fold the contents column on a wide screen, and remembers the choice. */
+/** Lets the reader fold the contents column on a wide screen, and stores the choice. */
 export function startFolding(): void {
   const button = document.querySelector<HTMLButtonElement>(".fold-button");
   if (!button) return;
@@ -76,7 +76,7 @@ export function startFolding(): void {
       if (folds) localStorage.setItem(FOLDED, "folded");
       else localStorage.removeItem(FOLDED);
     } catch {
-      // Not stored; the column is folded for this visit.
+      // Not stored: the column is folded for this visit only.
     }
     show();
   });

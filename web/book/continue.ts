@@ -1,15 +1,15 @@
-// Remembers where the reader is, and leads back there: a line on the first page to the chapter read
-// last, and in a chapter opened at its top an offer. Neither moves any text.
+// Stores the reader's place, and leads back to it: by a line on the first page to the chapter read last, and by an
+// offer in a chapter opened at its top. Neither shifts the text.
 
 import { chapterOf, type Place, storedPlaces, storePlaces } from "./places";
 
-/** Time at a heading after which it counts as read, milliseconds. */
+/** Time after which a heading counts as read, milliseconds. */
 const DWELL_MS = 3000;
 
-/** Part of the screen after which a reader has scrolled on. */
+/** Scrolled fraction of the screen that counts as reading on. */
 const SCROLLED = 0.25;
 
-/** The link to a chapter in the contents. */
+/** Returns the link to a chapter in the contents. */
 function linkTo(chapter: string): HTMLAnchorElement | undefined {
   return [...document.querySelectorAll<HTMLAnchorElement>("#contents a[href]")].find(
     (link) => !link.hash && chapterOf(link) === chapter,
@@ -23,7 +23,7 @@ function link(address: string, ...words: (string | Node)[]): HTMLAnchorElement {
   return made;
 }
 
-/** Fills the line of the first page with the last place whose chapter is still in the book. */
+/** Fills the line of the first page with the last place whose chapter still exists. */
 function fill(line: HTMLElement, places: Place[]): void {
   for (const [chapter, anchor, title] of places) {
     const entry = linkTo(chapter);
@@ -61,7 +61,7 @@ function remember(link: HTMLAnchorElement): void {
   storePlaces([[chapter, decodeURIComponent(link.hash.slice(1)), (link.textContent ?? "").trim()], ...others]);
 }
 
-/** Remembers the headings that the contents mark, once the reader stays there. */
+/** Stores the headings that the contents mark, once the reader stays there. */
 function follow(sections: HTMLElement): void {
   let timer: number | undefined;
   let current: HTMLAnchorElement | null = null;
@@ -85,6 +85,6 @@ export function start(): void {
   follow(sections);
   const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
   const here = places.find(([chapter]) => chapter === chapterOf(location));
-  // After reloading and on the way back, browsers return to the place themselves.
+  // After a reload or a step back, browsers restore the position themselves.
   if (here && !location.hash && visit?.type === "navigate") offer(here);
 }

@@ -1,6 +1,6 @@
-// A figure and the sentence that operates it, on one screen. Where both fit, the page scrolls by the least. Where they
-// do not, the figure docks at the top or bottom of the screen, and a placeholder keeps its place in the chapter, until
-// the reader closes it, scrolls on or reaches the placeholder.
+// Brings a figure and the sentence that operates it onto one screen. If both fit, the page scrolls as little as
+// possible. Otherwise the figure docks at the top or bottom of the screen, with a placeholder in the chapter, until the
+// reader closes it, scrolls on or reaches the placeholder.
 
 import { wantsStillness } from "../src/theme";
 
@@ -8,7 +8,7 @@ import { wantsStillness } from "../src/theme";
 const GAP_PX = 8;
 /** Maximum height of a docked figure, CSS pixels. */
 const MAX_HEIGHT_PX = 440;
-/** Minimum room beside a paragraph for which all of it stays uncovered, CSS pixels. */
+/** Minimum height beside a paragraph for keeping all of it uncovered, CSS pixels. */
 const MIN_ROOM_PX = 300;
 /** Visible fraction of the placeholder at which a docked figure returns to it. */
 const RETURN_AT = 0.95;
@@ -18,7 +18,7 @@ interface Span {
   bottom: number;
 }
 
-/** The visible part of the window, without the bar of the page if that is above the element. */
+/** Returns the visible part of the window, without the bar of the page if that is above the element. */
 function viewport(element: Element): Span {
   const bar = document.querySelector(".bar")?.getBoundingClientRect();
   const covers = bar !== undefined && bar.top <= 0 && bar.right > element.getBoundingClientRect().left;
@@ -27,10 +27,10 @@ function viewport(element: Element): Span {
 
 const isIn = (inner: Span, outer: Span) => inner.top >= outer.top - 1 && inner.bottom <= outer.bottom + 1;
 
-/** The picture of a figure; the figure where there is none yet. */
+/** Returns the picture of a figure, or the figure if it has none yet. */
 const pictureOf = (figure: HTMLElement) => figure.querySelector("epipole-figure")?.shadowRoot?.querySelector(".picture") ?? figure;
 
-/** Whether a sentence is less than a screen away from being seen. */
+/** Whether a sentence is less than a screen away from being visible. */
 export function isNear(words: Element, figure: Element): boolean {
   const [sentence, room] = [words.getBoundingClientRect(), viewport(figure)];
   const height = room.bottom - room.top;
@@ -39,7 +39,7 @@ export function isNear(words: Element, figure: Element): boolean {
 
 let docked: Dock | undefined;
 
-/** Brings a figure of the chapter and a sentence onto one screen, without taking the sentence off it. */
+/** Brings a figure of the chapter and a sentence onto one screen, without moving the sentence off it. */
 export function bringTogether(figure: HTMLElement, words: HTMLElement): void {
   if (docked?.figure === figure) return docked.moveTo(words);
   docked?.end();
@@ -50,7 +50,7 @@ export function bringTogether(figure: HTMLElement, words: HTMLElement): void {
   else scrollInto(both, room);
 }
 
-/** Scrolls the page by the least that brings a part of it into a part of the screen. */
+/** Scrolls the page as little as needed to bring a part of it into a part of the screen. */
 function scrollInto(part: Span, room: Span): void {
   const by = part.top < room.top ? part.top - room.top : part.bottom - room.bottom;
   scrollBy({ top: by, behavior: wantsStillness() ? "instant" : "smooth" });
@@ -59,7 +59,7 @@ function scrollInto(part: Span, room: Span): void {
 class Dock {
   readonly figure: HTMLElement;
   #words: HTMLElement;
-  /** As tall as the figure was in the chapter. */
+  /** Placeholder, as tall as the figure was in the chapter. */
   readonly #placeholder = document.createElement("div");
   readonly #bar = document.createElement("div");
   readonly #back = button("Back to the text", "dock-back");
@@ -86,7 +86,7 @@ class Dock {
     addEventListener("keydown", (event) => this.#onKey(event), { signal });
   }
 
-  /** Keeps another sentence uncovered from now on. */
+  /** Switches to keeping another sentence uncovered. */
   moveTo(words: HTMLElement): void {
     this.#words = words;
     const [dock, sentence, room] = [this.figure.getBoundingClientRect(), words.getBoundingClientRect(), viewport(this.#placeholder)];
@@ -131,7 +131,7 @@ class Dock {
     this.#bar.append(this.#back, close);
   }
 
-  /** Takes the side of the screen, above or below the sentence, that has more room. */
+  /** Chooses the side of the screen, above or below the sentence, that has more room. */
   #position(): void {
     const [sentence, place, room] = [this.#words.getBoundingClientRect(), this.#placeholder.getBoundingClientRect(), viewport(this.#placeholder)];
     const paragraph = (this.#words.closest("p, li") ?? this.#words).getBoundingClientRect();
@@ -160,7 +160,7 @@ class Dock {
   }
 
   #onKey(event: KeyboardEvent): void {
-    // The figure itself hears Escape first: it closes its drawer.
+    // The figure handles Escape first, to close its drawer.
     if (event.key !== "Escape" || event.defaultPrevented) return;
     if (this.#bar.contains(document.activeElement) || document.activeElement === this.#words) this.end();
   }

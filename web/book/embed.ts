@@ -1,14 +1,14 @@
-// A chapter in a frame (`?embed`): its links open new tabs. The host page receives the fraction of
-// questions solved and goals reached, and may store them, as SPLICE defines.
+// A chapter in a frame (`?embed`): its links open new tabs. The host page receives the fraction of questions solved and
+// goals reached, and may store them, as defined by SPLICE.
 
 import { answerHost, recordOf, tell } from "../src/splice.js";
 import { countReached, goalOf, goalsOf, markReached, recall } from "./goals";
 import { hashOf, loadSolved, markSolved } from "./solved";
 
-/** Maximum wait for the state that the host page has stored, milliseconds. */
+/** Maximum wait for the state stored by the host page, milliseconds. */
 const ANSWER_MS = 1000;
 
-/** Progress as the host page stores it. */
+/** Progress in the format stored by the host page. */
 interface SavedProgress {
   v: 1;
   /** Hashes of solved questions by their ids. */
@@ -58,7 +58,7 @@ class Chapter {
     return this.#quiz?.dataset.quiz ?? "";
   }
 
-  /** Takes the stored progress; resolves then, or when the host does not answer. */
+  /** Restores the stored progress; resolves after that, or if the host does not answer. */
   restored(): Promise<void> {
     return new Promise((done) => {
       setTimeout(done, ANSWER_MS);
@@ -66,7 +66,7 @@ class Chapter {
         this.#take(recordOf(state) ?? {});
         done();
       };
-      // Each step is reported as it happens.
+      // Each step is reported immediately, so nothing is left to flush.
       answerHost({ restore, flush: () => false });
     });
   }
@@ -79,7 +79,7 @@ class Chapter {
     for (const figure of document.querySelectorAll<HTMLElement>("epipole-figure[data-ready]")) recall(figure);
   }
 
-  /** Adds what belongs to this edition of the chapter. */
+  /** Adds progress that belongs to this edition of the chapter. */
   #add({ quiz, goals }: Omit<SavedProgress, "v">): void {
     for (const form of this.#forms) if (quiz[form.id] === hashOf(form)) this.#solved.set(form.id, hashOf(form));
     for (const goal of goals) if (this.#goals.includes(goal)) this.#reached.add(goal);

@@ -1,5 +1,4 @@
-// A figure's own page: a code snippet for other sites, which follows the figure's state and the
-// choice of its parts.
+// A figure's own page: a code snippet for other sites, which follows the figure's state and the selection of its parts.
 
 import { HOSTS } from "./snippets";
 import { type Choice, startStudio } from "./studio";
@@ -8,7 +7,7 @@ interface Living extends HTMLElement {
   state: Record<string, string>;
 }
 
-/** Storage key of the chosen kind of host page. */
+/** Storage key of the selected kind of host page. */
 const CHOSEN = "epipole-host";
 
 function remembered(): string {
@@ -23,7 +22,7 @@ function remember(name: string): void {
   try {
     localStorage.setItem(CHOSEN, name);
   } catch {
-    // Not stored; the choice holds for this visit.
+    // Not stored: the choice applies to this visit only.
   }
 }
 

@@ -1,4 +1,4 @@
-// Goals of figures: remembers, in this browser only, which ones the reader has reached.
+// Goals of figures: stores, in this browser only, which ones the reader has reached.
 
 const PREFIX = "epipole-goals:";
 
@@ -29,7 +29,7 @@ export function markReached(goal: string): boolean {
   }
 }
 
-/** Number of the given goals (`figure/goal`) that the reader has reached. */
+/** Counts those of the given goals (`figure/goal`) that the reader has reached. */
 export function countReached(goals: string[]): number {
   const isReached = (goal: string) => {
     const [figure = "", id = ""] = goal.split("/");
@@ -38,7 +38,7 @@ export function countReached(goals: string[]): number {
   return goals.filter(isReached).length;
 }
 
-/** The goals named in an element's `data-goals`. */
+/** Returns the goals named in an element's `data-goals`. */
 export function goalsOf({ dataset }: HTMLElement): string[] {
   return (dataset.goals ?? "").split(" ").filter((goal) => goal !== "");
 }
@@ -48,12 +48,12 @@ export function forget(goals: string[]): void {
   for (const goal of goals) localStorage.removeItem(PREFIX + (goal.split("/")[0] ?? ""));
 }
 
-/** The goal (`figure/goal`) of an event `epipole-challenge`. */
+/** Returns the goal (`figure/goal`) of an event `epipole-challenge`. */
 export function goalOf(event: Event): string {
   return `${nameOf(event.target as Element)}/${(event as CustomEvent<{ id: string }>).detail.id}`;
 }
 
-/** Shows a figure its goals that were reached before. */
+/** Passes a figure its goals that were reached before. */
 export function recall(figure: Figure): void {
   const reached = load(nameOf(figure));
   if (reached.length > 0) figure.recall?.(reached);

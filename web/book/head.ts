@@ -6,7 +6,7 @@ import { parseSettings, showSettings, storedSettings } from "./settings";
 
 const { dataset } = document.documentElement;
 const query = new URLSearchParams(location.search);
-// In a frame of another page: the chapter alone, with that page's settings.
+// In a frame of another page, only the chapter is shown, with that page's settings.
 const isEmbedded = query.has("embed");
 const given = isEmbedded ? parseSettings(JSON.stringify(Object.fromEntries(query))) : {};
 dataset.listing = "numpy";

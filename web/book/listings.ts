@@ -1,10 +1,10 @@
-// Listings with tabs and a copy button. The shown language is an attribute of the page: it is set
-// before the first paint and applies to the whole book.
+// Listings with tabs and a copy button. The selected language is an attribute of the page: it is set before the first
+// paint and applies to the whole book.
 
 const CHOSEN = "epipole-listing";
 const root = document.documentElement;
 
-/** The tab that a listing shows: the reader's language, else the first. */
+/** Returns the tab that a listing shows: the reader's language, else the first. */
 function shown(tabs: HTMLElement[]): HTMLElement | undefined {
   return tabs.find((tab) => tab.dataset.tab === root.dataset.listing) ?? tabs[0];
 }
@@ -22,7 +22,7 @@ function update(): void {
   }
 }
 
-/** Shows a language in all listings, keeping this one in place on the screen. */
+/** Shows a language in all listings, without moving this one on the screen. */
 function choose(tab: HTMLElement): void {
   const before = tab.getBoundingClientRect().top;
   root.dataset.listing = tab.dataset.tab ?? "";
@@ -31,7 +31,7 @@ function choose(tab: HTMLElement): void {
   try {
     localStorage.setItem(CHOSEN, root.dataset.listing);
   } catch {
-    // Not stored; the choice holds for this visit.
+    // Not stored: the choice applies to this visit only.
   }
 }
 
@@ -86,7 +86,7 @@ function startCopying(button: HTMLButtonElement): void {
   button.addEventListener("click", async () => {
     const part = parts.find((part) => part.checkVisibility());
     const code = part?.querySelector("code");
-    // An editor has taken the place of code that runs.
+    // For code that runs, the editor has replaced the code element.
     const text = part?.dataset.code ?? code?.textContent ?? "";
     const write = navigator.clipboard?.writeText(text);
     const done = await (write?.then(() => true, () => false) ?? false) || (code != null && copySelected(code));

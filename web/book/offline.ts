@@ -1,10 +1,10 @@
-// The book without a network: registers its service worker, says when the whole book is kept, and
-// offers a new edition. A page that may not do so works as without.
+// The book without a network: registers its service worker, reports when the whole book is cached, and offers a new
+// edition. Without permission, the page works as before.
 
 import { variantOf, type Variant } from "../offline/pictures";
 import { COMPLETE, TAKE_OVER, type CacheRequest } from "../offline/protocol";
 
-/** Time that a worker without a predecessor takes to become active, milliseconds. */
+/** Time for which a worker without a predecessor may take to become active, milliseconds. */
 const PASSING_MS = 1000;
 
 export async function start(manifest: string): Promise<void> {
@@ -19,19 +19,19 @@ export async function start(manifest: string): Promise<void> {
     const page = location.pathname.slice(root.pathname.length).replace(/(^|\/)$/, "$1index.html");
     const saves = (navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true;
     const seen = variantHere();
-    // A page without figures does not show which pictures of the others its reader would see.
+    // A page without figures does not reveal which pictures of other pages its reader would see.
     const all = !saves && seen !== undefined;
     const variant = seen ?? { width: 360, theme: "light" };
     active?.postMessage({ page, all, variant } satisfies CacheRequest);
-    // By itself, a browser asks only once its worker has been idle for a while. This comes after the
-    // message, because a message to a worker that is ending would start it again.
+    // By itself, a browser checks for updates only once its worker has been idle for a while. This follows the message,
+    // because a message to a terminating worker would restart it.
     if (!isFirstVisit) ask(registration);
   } catch {
     // Forbidden by the browser or its settings.
   }
 }
 
-/** The pictures that this page shows; undefined without a figure. */
+/** Returns the variant of the pictures on this page; undefined without a figure. */
 function variantHere(): Variant | undefined {
   const pictures = [...document.querySelectorAll<HTMLImageElement>("epipole-figure picture img")];
   return pictures.map(({ currentSrc }) => variantOf(currentSrc)).find(Boolean);
@@ -45,10 +45,10 @@ function showSign(): void {
   document.querySelector(".turn")?.append(sign);
 }
 
-/** Asks the server for a next edition. */
+/** Asks the server for a new edition. */
 const ask = (registration: ServiceWorkerRegistration) => void registration.update().catch(() => undefined);
 
-/** Offers each edition that waits. */
+/** Offers each new edition that waits. */
 function watch(registration: ServiceWorkerRegistration): void {
   const offerWaiting = () => {
     if (registration.waiting && navigator.serviceWorker.controller) offer(registration.waiting);

@@ -1,5 +1,5 @@
-// Sentences that operate figures. `.do` takes a figure to a state, `.live` follows one of its
-// readouts. Until this script runs, both are plain text. A figure may load later or never.
+// Sentences that operate figures: `.do` sets a figure's state, `.live` follows one of its readouts. Until this script
+// runs, both are plain text. A figure may load later or never.
 
 interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>, options: { scroll: boolean }) => Promise<void>;
@@ -16,15 +16,15 @@ function parametersOf(words: HTMLElement): Record<string, string> {
   return JSON.parse(words.dataset.parameters ?? "{}") as Record<string, string>;
 }
 
-/** Resolves when the browser has scrolled for changes of layout (scroll anchoring), in the frame that follows them. */
+/** Resolves in the frame after layout changes, once the browser has scrolled for them (scroll anchoring). */
 const scrollAnchored = () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
 
-/** Ends what keeps the last operated sentence together with its figure. */
+/** Ends keeping the last operated sentence together with its figure. */
 let kept: AbortController | undefined;
 
 /**
- * Calls `act` after each change of layout, until it returns false, or the reader scrolls, presses anything, prints or
- * operates another figure.
+ * Calls `act` after each change of layout, until it returns false, or the reader scrolls, presses a key or button,
+ * prints or operates another figure.
  */
 function keep(act: () => boolean, changing: Element[]): () => Promise<void> {
   kept?.abort();
@@ -34,7 +34,7 @@ function keep(act: () => boolean, changing: Element[]): () => Promise<void> {
     await scrollAnchored();
     if (!signal.aborted && !act()) keeping.abort();
   };
-  // The first report is of sizes that have not changed.
+  // The first report is of initial sizes, not of a change.
   let reports = 0;
   const sizes = new ResizeObserver(() => {
     if (++reports > 1) void again();
@@ -47,7 +47,7 @@ function keep(act: () => boolean, changing: Element[]): () => Promise<void> {
   return again;
 }
 
-/** Makes the words a button without a box of its own, so that they still wrap like text. */
+/** Makes the words a button with inline layout, so that they still wrap like text. */
 function startButton(words: HTMLElement, docks: boolean): void {
   const figure = figureOf(words);
   if (!figure) return;
@@ -57,7 +57,7 @@ function startButton(words: HTMLElement, docks: boolean): void {
   if (number) words.title = `Shows it in ${number}`;
   const act = async () => {
     await customElements.whenDefined("epipole-figure");
-    // Safari 16 has no popovers: there the page scrolls to the figure.
+    // Safari 16 has no popovers, so the page scrolls to the figure instead.
     const canDock = docks && "popover" in HTMLElement.prototype;
     const dock = canDock ? await import("./dock").catch(() => undefined) : undefined;
     const box = figure.closest("figure") ?? figure;
@@ -67,7 +67,7 @@ function startButton(words: HTMLElement, docks: boolean): void {
       return canBring;
     };
     together();
-    // Fonts that arrive, figures that come alive or leave their docks, and numbers in sentences move the text.
+    // Fonts that load, figures that start or leave their docks, and numbers in sentences shift the text.
     const again = keep(together, [document.body, figure]);
     await figure.glide?.(parametersOf(words), { scroll: docks && !dock });
     await figure.open?.();
@@ -91,7 +91,7 @@ function follow(figure: Figure, numbers: HTMLElement[]): void {
       const text = figure.readoutText?.(id) ?? figure.controlText?.(id);
       if (text === undefined || text === number.textContent) continue;
       number.textContent = text;
-      // The width never shrinks: a paragraph that wraps differently would move the figure below it.
+      // The width never shrinks, since a paragraph that wraps differently would move the figure below it.
       const width = number.getBoundingClientRect().width;
       if (width > (parseFloat(number.style.minWidth) || 0)) number.style.minWidth = `${Math.ceil(width)}px`;
     }
@@ -104,7 +104,7 @@ function follow(figure: Figure, numbers: HTMLElement[]): void {
   schedule();
 }
 
-/** With `docks`, a figure that is off the screen comes to the sentence that operates it. */
+/** Starts the sentences. With `docks`, a figure that is off the screen comes to the sentence that operates it. */
 export function startOperating({ docks }: { docks: boolean }): void {
   document.querySelectorAll<HTMLElement>(".do").forEach((words) => startButton(words, docks));
   const followed = new Map<Figure, HTMLElement[]>();

@@ -1,4 +1,4 @@
-// Script of every page: settings, contents, scrolling boxes; loads quizzes and search on demand.
+// Script of every page: settings, contents, scrollable boxes; loads quizzes and search on demand.
 import { followSections, revealCurrentChapter, startFolding } from "./contents";
 import { startGoals } from "./goals";
 import { startListings } from "./listings";
@@ -25,7 +25,7 @@ startListings();
 startSymbols();
 startHandingOn();
 
-/** Shows once that a script could not be loaded (as after a new release), with a way to reload. */
+/** Shows once that a script could not be loaded (such as after a new release), with a button to reload. */
 function sayMissing(): void {
   if (document.querySelector(".page-notice")) return;
   const notice = document.createElement("p");
@@ -43,7 +43,7 @@ function sayMissing(): void {
 startSettings(sayMissing);
 startRunning(sayMissing);
 
-/** Whether the page is in a frame of another, which may keep what the reader has solved. */
+/** Whether the page is in a frame of another page, which may store the reader's progress. */
 const isEmbedded = "embed" in document.documentElement.dataset;
 const kept = isEmbedded ? import("./embed").then((embed) => embed.start(), sayMissing) : Promise.resolve();
 
@@ -66,10 +66,10 @@ if (document.querySelector("a.term")) {
 const embedding = document.querySelector<HTMLElement>(".embedding");
 if (embedding) void import("./embedding").then(({ start }) => start(embedding), sayMissing);
 
-// Only the published book has a manifest. In frames, it belongs to another page.
+// Only the published book has a manifest; in a frame, the manifest is the other page's concern.
 const manifest = document.querySelector<HTMLLinkElement>("link[rel=manifest]");
 if (manifest && "serviceWorker" in navigator && window === top) {
-  // After everything that this page shows.
+  // After everything that this page displays.
   const begin = () => void import("./offline").then((offline) => offline.start(manifest.href), () => undefined);
   const idle = () => ("requestIdleCallback" in window ? requestIdleCallback(begin) : setTimeout(begin, 1000));
   if (document.readyState === "complete") idle();

@@ -2,7 +2,7 @@
 
 export const PLACES_KEY = "epipole-places";
 
-/** A chapter (the name of its file, without `.html`), and the anchor and words of a heading in it. */
+/** A chapter (the name of its file, without `.html`), and the anchor and text of a heading in it. */
 export type Place = [chapter: string, anchor: string, title: string];
 
 /** Maximum length of each part of a place, characters. */
@@ -11,13 +11,13 @@ const MAX_LENGTH = 300;
 const isPart = (part: unknown) => typeof part === "string" && part !== "" && part.length <= MAX_LENGTH;
 const isPlace = (place: unknown) => Array.isArray(place) && place.length === 3 && place.every(isPart);
 
-/** The places in a parsed JSON value, one per chapter; nothing else in it counts. */
+/** Returns the places in a parsed JSON value, one per chapter, ignoring anything else. */
 export function placesIn(value: unknown): Place[] {
   const places = Array.isArray(value) ? (value.filter(isPlace) as Place[]) : [];
   return places.filter(([chapter], index) => places.findIndex(([other]) => other === chapter) === index);
 }
 
-/** Stored places, the last one read first; none where storage is blocked. */
+/** Returns the stored places, the last one read first; none if storage is blocked. */
 export function storedPlaces(): Place[] {
   try {
     return placesIn(JSON.parse(localStorage.getItem(PLACES_KEY) ?? "[]"));
@@ -41,7 +41,7 @@ export function forgetPlaces(): void {
   localStorage.removeItem(PLACES_KEY);
 }
 
-/** The chapter of an address, by the name of its file. */
+/** Returns the chapter of an address, by the name of its file. */
 export function chapterOf({ pathname }: { pathname: string }): string {
   return (pathname.split("/").pop() ?? "").replace(/\.html$/, "");
 }

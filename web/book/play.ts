@@ -1,5 +1,5 @@
-// Figures that play when they scroll into view; `data-play` names the button to press. Each plays
-// once, never with reduced motion and never after the reader has operated it.
+// Figures that play when scrolled into view; `data-play` names the button to press. Each plays once, never with reduced
+// motion and never after the reader has operated it.
 
 import { wantsStillness } from "../src/theme";
 
@@ -13,7 +13,7 @@ interface Figure extends HTMLElement {
 const SHARE = 0.6;
 const CHECK_MS = 250;
 
-/** Whether the figure has computed its readouts, so that there is something to play. */
+/** Whether the figure has computed its readouts, so that it can be played. */
 function isKnown(figure: Figure): boolean {
   const [first] = Object.keys(figure.readouts ?? {});
   return first !== undefined && figure.readoutText?.(first) !== undefined;
@@ -42,7 +42,7 @@ function play(figure: Figure): void {
   for (const taken of TAKEN) figure.addEventListener(taken, stop);
 }
 
-/** Events by which a reader takes over a figure. */
+/** Events by which a reader takes control of a figure. */
 const TAKEN = ["pointerdown", "keydown"] as const;
 
 export function startPlaying(): void {

@@ -1,18 +1,18 @@
-// The page of progress: counts what the reader has solved and reached, saves it as a file, adds what
-// a file knows, and forgets all of it.
+// The progress page: counts solved questions and reached goals, saves progress as a file, merges a file, and erases all
+// progress.
 
 import { countReached, forget, goalsOf } from "./goals";
 import { chapterOf, forgetPlaces } from "./places";
 import { addProgress, type Book, collectProgress, type Counts, MAX_BYTES, progressIn } from "./progress_file";
 import { canRemember, countSolved, forgetSolved, type Kind } from "./solved";
 
-/** Cells of a row that count the solved, by their kinds. */
+/** Cells of a row that count solved questions, by kind. */
 const CELLS: [Kind, string][] = [
   ["quiz", ".solved"],
   ["task", ".tasks"],
 ];
 
-/** Hashes in a cell by the ids of questions or tasks. */
+/** Returns the hashes in a cell, by the ids of questions or tasks. */
 function wordingsOf({ dataset }: HTMLElement): Map<string, string> {
   const pairs = (dataset.wordings ?? "").split(" ").filter((pair) => pair !== "");
   return new Map(pairs.map((pair) => [pair.slice(0, pair.lastIndexOf(":")), pair.slice(pair.lastIndexOf(":") + 1)]));
@@ -50,7 +50,7 @@ function wordsFor({ quiz, task, goals, places }: Counts, name: string): string {
   return added.length === 0 ? `Nothing in ${name} is new here.` : `Added from ${name}: ${added.join(", ")}.`;
 }
 
-/** Adds a file's progress. Returns a sentence. */
+/** Merges the progress of a file. Returns a message. */
 async function add(file: File, book: Book): Promise<string> {
   const read = file.size <= MAX_BYTES ? progressIn(await file.text(), book) : "foreign";
   if (read === "foreign") return `${file.name} is no progress of this book. Choose a file that this page has saved.`;
@@ -97,7 +97,7 @@ function show(progress: HTMLElement): void {
     if (!file) return;
     const name = file.name;
     said.textContent = await add(file, book).catch(() => `${name} cannot be read. Choose it again.`);
-    // The same file can be chosen again.
+    // Reset, so that the same file can be chosen again.
     input.value = "";
     update();
   });

@@ -1,5 +1,4 @@
-// Progress as a file: what to save, and what to add of a file that may be foreign, damaged or of
-// another edition.
+// Progress as a file: its content, and merging of a file that may be foreign, damaged or of another edition.
 
 import { countReached, markReached } from "./goals";
 import { type Place, placesIn, storedPlaces, storePlaces } from "./places";
@@ -17,10 +16,10 @@ interface Solvable {
   wordings: Map<string, string>;
 }
 
-/** All that an edition of the book asks of readers. */
+/** All questions, tasks and goals of an edition of the book. */
 export interface Book {
   solvable: Solvable[];
-  /** Each `figure/goal`. */
+  /** Goals, each `figure/goal`. */
   goals: string[];
   chapters: string[];
 }
@@ -32,22 +31,22 @@ interface Solution {
   hash: string;
 }
 
-/** Progress that is of this edition. */
+/** Progress that belongs to this edition. */
 export interface Progress {
   solutions: Solution[];
   goals: string[];
   places: Place[];
 }
 
-/** Numbers of additions. */
+/** Numbers of items added. */
 export type Counts = Record<Kind | "goals" | "places", number>;
 
-/** A property of a parsed JSON value, which may be anything. */
+/** Returns a property of a parsed JSON value of any type. */
 function own(value: unknown, key: string): unknown {
   return typeof value === "object" && value !== null && Object.hasOwn(value, key) ? value[key as never] : undefined;
 }
 
-/** Solutions of the present wordings; `hashOf` looks one up. */
+/** Returns solutions of the current wordings; `hashOf` looks one up. */
 function solutions({ solvable }: Book, hashOf: (kind: Kind, chapter: string, id: string) => unknown): Solution[] {
   return solvable.flatMap(({ kind, chapter, wordings }) => {
     const all = [...wordings].map(([id, hash]) => ({ kind, chapter, id, hash }));
@@ -57,7 +56,7 @@ function solutions({ solvable }: Book, hashOf: (kind: Kind, chapter: string, id:
 
 const isReached = (goal: string) => countReached([goal]) > 0;
 
-/** The content of a file with the progress stored here. */
+/** Returns the content of a file with the progress stored in this browser. */
 export function collectProgress(book: Book): object {
   const solved: Record<Kind, Record<string, Record<string, string>>> = { quiz: {}, task: {} };
   for (const { kind, chapter, id, hash } of solutions(book, (...[kind, chapter, id]) => loadSolved(kind, chapter)[id])) {
@@ -66,7 +65,7 @@ export function collectProgress(book: Book): object {
   return { format: FORMAT, version: VERSION, ...solved, goals: book.goals.filter(isReached), places: storedPlaces() };
 }
 
-/** The progress in a file that this edition knows, or the reason why there is none. */
+/** Returns the progress in a file that this edition knows, or the reason why there is none. */
 export function progressIn(text: string, book: Book): Progress | "foreign" | "newer" {
   let file: unknown;
   try {
@@ -85,7 +84,7 @@ export function progressIn(text: string, book: Book): Progress | "foreign" | "ne
   };
 }
 
-/** Adds progress to the progress stored here, which stays. Returns undefined if storage is blocked. */
+/** Adds progress to that stored in this browser. Returns undefined if storage is blocked. */
 export function addProgress(progress: Progress): Counts | undefined {
   const counts: Counts = { quiz: 0, task: 0, goals: 0, places: 0 };
   for (const { kind, chapter, id, hash } of progress.solutions) {

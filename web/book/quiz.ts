@@ -1,6 +1,5 @@
-// Quizzes. The page contains questions and folded answers; this script checks the reader's answer
-// and remembers solved questions in this browser only. An answer to an earlier wording of a
-// question (another data-hash) does not count.
+// Quizzes. The page contains questions and folded answers; this script checks the reader's answer and stores solved
+// questions in this browser only. An answer to an earlier wording of a question (another data-hash) does not count.
 
 import { countReached, goalsOf } from "./goals";
 import { hashOf, loadSolved, markSolved } from "./solved";
@@ -13,7 +12,7 @@ function checkNumber(input: HTMLInputElement): Verdict | null {
   const value = Number(typed);
   if (!Number.isFinite(value)) return { right: false, say: "Please type a number." };
   const answer = Number(input.dataset.answer);
-  // Readers type rounded decimals as the page prints them: allow for rounding beyond the tolerance.
+  // Readers type decimals rounded like those on the page, so rounding is allowed beyond the tolerance.
   const tolerance = Number(input.dataset.tolerance) + 1e-9 * Math.max(1, Math.abs(answer));
   const right = Math.abs(value - answer) <= tolerance;
   return { right, say: right ? "Right." : value > answer ? "Not yet: too large." : "Not yet: too small." };

@@ -1,5 +1,5 @@
-// Code that runs: the button of a listing or a task loads the editor and runs the code. A link with
-// `#run=name&code=…` opens a block with the code that it brings.
+// Runnable code: the button of a listing or a task loads the editor and runs the code. A link with `#run=name&code=…`
+// opens a block with the code that it contains.
 
 import type { Block, Program } from "../run/program";
 import { showTab } from "./listings";
@@ -54,9 +54,9 @@ async function openLinked(boxes: HTMLElement[], missing: () => void): Promise<vo
   }
 }
 
-/** Makes the buttons work; `missing` reports that the editor could not be loaded. */
+/** Activates the buttons; `missing` is called if the editor could not be loaded. */
 export function startRunning(missing: () => void): void {
-  // A site without the package has nothing to run code with.
+  // A site without the package cannot run code.
   if (EPIPOLE_VISION === "") return;
   const boxes = [...document.querySelectorAll<HTMLElement>(".listing")];
   for (const box of boxes) {

@@ -1,5 +1,5 @@
-// Listings, tables and formulas wider than the screen scroll in boxes of their own. A box is a Tab
-// stop only while it scrolls.
+// Listings, tables and formulas wider than the screen scroll in their own boxes. A box is a Tab stop only while it can
+// scroll.
 
 const NAMES: [string, (box: HTMLElement) => string][] = [
   ["pre", (box) => `${box.dataset.language ?? "Listing"}, scrolls sideways`],
@@ -21,7 +21,7 @@ export function makeScrollersReachable(): void {
     }
   };
   const observer = new ResizeObserver((entries) => {
-    // Measure all before changing any, so that the page is laid out once.
+    // Measures all before changing any, so that the page is laid out once.
     const measured = entries.map(({ target }) => [target, target.scrollWidth > target.clientWidth + 1] as const);
     for (const [box, scrolls] of measured) {
       if (scrolls !== box.hasAttribute("tabindex")) update(box, scrolls);

@@ -7,7 +7,7 @@ interface Section {
   c: string;
   /** Section. */
   t: string;
-  /** Words. */
+  /** Text. */
   w: string;
 }
 
@@ -17,7 +17,7 @@ interface Hit {
 }
 
 const MAX_HITS = 20;
-/** Time until the dialog says that the index is slow, milliseconds. */
+/** Time after which the dialog reports that the index is slow, milliseconds. */
 const SLOW_MS = 15_000;
 let sections: Promise<Section[]> | undefined;
 let asking = new AbortController();
@@ -41,7 +41,7 @@ const ABBREVIATIONS: ReadonlyMap<string, string> = new Map([
 
 const fold = (text: string) => text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
 
-/** Sections that contain every word (as a prefix at least) or what it abbreviates, best first. */
+/** Returns the sections that contain every word (at least as a prefix) or what it abbreviates, best first. */
 export function find(all: Section[], query: string): Hit[] {
   const words = wordsOf(query);
   const best = new Map<Section, number>();
@@ -58,7 +58,7 @@ const wordsOf = (text: string) => fold(text).split(/[^\p{L}\p{N}]+/u).filter(Boo
 
 const spelledOut = (word: string) => wordsOf(ABBREVIATIONS.get(word) ?? word);
 
-/** Sections that contain every word; none without words. */
+/** Returns the sections that contain every word; none without words. */
 function containing(all: Section[], words: string[]): Hit[] {
   const hits: Hit[] = [];
   for (const section of all) {
@@ -75,20 +75,20 @@ function containing(all: Section[], words: string[]): Hit[] {
       }
       score += 8 * inTitle + 3 * inChapter + Math.min(inText, 5);
     }
-    // The reference of the package has a section for every name.
+    // The manual of the Python package has a section for every name.
     if (section.u.startsWith("python/")) score /= 2;
-    // An abbreviation counts as much as the words it stands for.
+    // An abbreviation counts as much as the words that it abbreviates.
     if (score > 0) hits.push({ section, score: score / words.length });
   }
   return hits;
 }
 
-/** Number of times that the text contains the word. */
+/** Counts the occurrences of the word in the text. */
 function wholeIn(text: string, word: string): number {
   return wordsOf(text).filter((other) => other === word).length;
 }
 
-/** Number of words in the text that start with `word`. */
+/** Counts the words of the text that start with `word`. */
 function startsIn(text: string, word: string): number {
   let count = 0;
   for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
@@ -97,7 +97,7 @@ function startsIn(text: string, word: string): number {
   return count;
 }
 
-/** About 140 characters around the first match, with the matches marked. */
+/** Returns about 140 characters around the first match, with the matches marked. */
 function excerpt(text: string, query: string): HTMLElement {
   const folded = fold(text);
   const words = wordsOf(query).flatMap((word) => (folded.includes(word) ? word : spelledOut(word)));
@@ -188,7 +188,7 @@ function makeDialog(index: string, root: string): HTMLDialogElement {
     try {
       hits = find((await waited) ?? [], query);
     } catch {
-      // Report a failure unless a newer request has replaced this one.
+      // A failure is not reported if a newer request has replaced this one.
       if (!sections || sections === waited) offer("The index of the book could not be loaded.");
       return;
     } finally {

@@ -15,7 +15,7 @@ export function settleSections(): void {
   else addEventListener("load", () => whenIdle(settle), { once: true });
 }
 
-/** Runs `work` in a frame of its own. Safari lacks requestIdleCallback. */
+/** Runs `work` in a separate frame. Safari lacks requestIdleCallback. */
 function whenIdle(work: () => void): void {
   requestAnimationFrame(() => {
     if ("requestIdleCallback" in window) requestIdleCallback(work, { timeout: 500 });

@@ -5,7 +5,7 @@ import { wantsContrast } from "../src/theme";
 
 export const SETTINGS_KEY = "epipole-settings";
 
-/** Values of each setting besides its default. */
+/** Values of each setting other than its default. */
 export const VALUES = {
   theme: ["light", "dark"],
   contrast: ["more"],
@@ -19,7 +19,7 @@ export type Settings = { [N in Name]?: (typeof VALUES)[N][number] };
 
 const names = Object.keys(VALUES) as Name[];
 
-/** Settings stored as `text`, without unknown names and values. */
+/** Parses settings stored as `text`, ignoring unknown names and values. */
 export function parseSettings(text: string | null): Settings {
   try {
     const stored = JSON.parse(text ?? "{}") as Record<string, unknown>;
@@ -30,7 +30,7 @@ export function parseSettings(text: string | null): Settings {
   }
 }
 
-/** Stored settings; none where storage is blocked. */
+/** Returns the stored settings; none if storage is blocked. */
 export function storedSettings(): Settings {
   try {
     return parseSettings(localStorage.getItem(SETTINGS_KEY));
@@ -46,16 +46,16 @@ export function showSettings(settings: Settings): void {
     if (value) dataset[name] = value;
     else delete dataset[name];
   }
-  // Style sheets cannot join an attribute and a media query.
+  // CSS cannot combine an attribute and a media query in one selector.
   classList.toggle("contrast", wantsContrast());
 }
 
-/** Settings that the page shows. */
+/** Returns the settings that the page shows. */
 export function shownSettings(): Settings {
   return parseSettings(JSON.stringify(document.documentElement.dataset));
 }
 
-/** Shows and stores settings. Where storage is blocked, they hold for this visit. */
+/** Shows and stores settings. If storage is blocked, they apply to this visit only. */
 export function keepSettings(settings: Settings): void {
   showSettings(settings);
   try {

@@ -1,15 +1,14 @@
-// The panel with the reader's settings, which the button in the bar opens. The page loads it with
-// the first use.
+// The panel with the reader's settings, opened by the button in the bar. The page loads it on first use.
 
 import type { Name, Settings } from "./settings";
 
-/** Access to the settings of the page. The panel imports none, which would split the page's script. */
+/** Access to the settings of the page. The panel does not import them, as that would split the page's script. */
 export interface Access {
   shown: () => Settings;
   keep: (settings: Settings) => void;
 }
 
-/** Groups of choices: the setting, its name, and the words for each value, the default first. */
+/** Groups of choices: the setting, its name, and a label for each value, the default first. */
 const GROUPS: [Name, string, [string, string][]][] = [
   ["theme", "Colors", [["", "System"], ["light", "Light"], ["dark", "Dark"]]],
   ["contrast", "Contrast", [["", "System"], ["more", "More"]]],

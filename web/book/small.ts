@@ -1,6 +1,5 @@
-// Thumbnails that animate: on hover, on focus, or in the middle of a touch screen. `data-moves` is
-// the state to glide to and back from, repeatedly. One runs at a time, and none with reduced
-// motion.
+// Thumbnails that animate: on hover, on focus, or in the middle of a touch screen. `data-moves` is the state to glide
+// to and back from, repeatedly. Only one runs at a time, and none with reduced motion.
 
 import { wantsStillness } from "../src/theme";
 
@@ -8,7 +7,7 @@ interface Figure extends HTMLElement {
   glide?: (parameters: Record<string, string>, options: { duration: number }) => Promise<void>;
 }
 
-/** Duration of one way, then of the rest after it, milliseconds. */
+/** Duration of one direction, then of the pause after it, milliseconds. */
 const WAY_MS = 1600;
 const REST_MS = 500;
 /** Interval for polling whether the figure has finished computing, milliseconds. */
@@ -18,9 +17,7 @@ const LINGER_MS = 250;
 
 const pause = (duration: number) => new Promise((done) => setTimeout(done, duration));
 
-/**
- * Whether a picture is fully visible; a moving figure would scroll the page to itself otherwise.
- */
+/** Whether a picture is fully visible; otherwise a moving figure would scroll the page to itself. */
 function isWhole(card: HTMLElement): boolean {
   const box = card.querySelector("picture")?.getBoundingClientRect();
   return box !== undefined && box.top >= 0 && box.bottom <= innerHeight;
@@ -52,7 +49,7 @@ async function live(card: HTMLElement): Promise<void> {
   const home = Object.fromEntries(Object.keys(moves).map((key) => [key, state[key] ?? ""]));
   const looks = { name: card.dataset.figure ?? "", compact: "", controls: "none", readouts: "none", goals: "none" };
   for (const [key, value] of Object.entries({ ...state, ...looks })) figure.setAttribute(key, value);
-  // The picture adds nothing to the text, and only the link is operable.
+  // The picture adds nothing to the text, and only the link can be operated.
   figure.inert = true;
   figure.setAttribute("aria-hidden", "true");
   // Goals met by the animation are not the reader's.
@@ -72,7 +69,7 @@ async function live(card: HTMLElement): Promise<void> {
 }
 
 export function startSmall(): void {
-  // The address's parameters are for the figures of the text.
+  // The address's parameters belong to the figures of the text.
   if (location.search !== "") return;
   const cards = document.querySelectorAll<HTMLElement>(".small[data-moves]");
   const hovers = matchMedia("(hover: hover)").matches;

@@ -4,7 +4,7 @@ export interface EmbeddedFigure {
   name: string;
   title: string;
   state: Record<string, string>;
-  /** Controls, readouts and goals that are shown, as attributes of the element. */
+  /** Controls, readouts and goals to show, as attributes of the element. */
   choice: Record<string, string>;
   /** Address of the book, with a trailing slash. */
   book: string;
@@ -42,7 +42,7 @@ function frame(figure: EmbeddedFigure): string {
   );
 }
 
-/** A value as a Python literal. */
+/** Formats a value as a Python literal. */
 function python(value: string): string {
   if (value === "true") return "True";
   if (value === "false") return "False";
@@ -58,9 +58,9 @@ export const HOSTS: readonly Host[] = [
   {
     name: "Python notebook",
     write: ({ name, state, choice }) => {
-      // Names that are no Python identifiers go into a dictionary.
+      // Names that are not Python identifiers go into a dictionary.
       const plain = Object.keys(state).every((key) => /^[a-z_]\w*$/.test(key));
-      // There the numbers themselves are `readouts`.
+      // In Python, `readouts` are the numbers themselves.
       const chosen = Object.entries(choice).map(([key, value]) => [key === "readouts" ? "readouts_shown" : key, value]);
       const pairs = [...Object.entries(state), ...chosen] as [string, string][];
       const more = plain

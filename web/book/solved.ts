@@ -4,12 +4,12 @@
 /** Hash by the id of a question or a task. */
 export type Solved = Record<string, string>;
 
-/** Kinds of things to solve. */
+/** Kinds of solvable items. */
 export type Kind = "quiz" | "task";
 
 const keyOf = (kind: Kind, chapter: string) => `epipole-${kind}:${chapter}`;
 
-/** The hash of the wording of a question or a task. */
+/** Returns the hash of the wording of a question or a task. */
 export function hashOf({ dataset }: HTMLElement): string {
   return dataset.hash ?? "";
 }
@@ -18,20 +18,20 @@ export function loadSolved(kind: Kind, chapter: string): Solved {
   try {
     const stored: unknown = JSON.parse(localStorage.getItem(keyOf(kind, chapter)) ?? "{}");
     if (typeof stored !== "object" || stored === null || Array.isArray(stored)) return {};
-    // Ignore stored values that are not hashes.
+    // Ignores stored values that are not hashes.
     return Object.fromEntries(Object.entries(stored).filter(([, hash]) => typeof hash === "string"));
   } catch {
     return {};
   }
 }
 
-/** Number of solved questions or tasks of a chapter; `wordings` are the present hashes by id. */
+/** Counts solved questions or tasks of a chapter; `wordings` are the current hashes by id. */
 export function countSolved(kind: Kind, chapter: string, wordings: Map<string, string>): number {
   const solved = Object.entries(loadSolved(kind, chapter));
   return solved.filter(([id, hash]) => wordings.get(id) === hash).length;
 }
 
-/** Stores that something is solved. Returns false if storage is blocked; the page works without it. */
+/** Stores that an item is solved. Returns false if storage is blocked; the page works without it. */
 export function markSolved(kind: Kind, chapter: string, id: string, hash: string): boolean {
   try {
     localStorage.setItem(keyOf(kind, chapter), JSON.stringify({ ...loadSolved(kind, chapter), [id]: hash }));
@@ -41,12 +41,12 @@ export function markSolved(kind: Kind, chapter: string, id: string, hash: string
   }
 }
 
-/** Forgets what is solved of a chapter. Throws if storage is blocked. */
+/** Forgets the solved items of a chapter. Throws if storage is blocked. */
 export function forgetSolved(kind: Kind, chapter: string): void {
   localStorage.removeItem(keyOf(kind, chapter));
 }
 
-/** Whether the page may store anything in this browser. */
+/** Whether the page can store data in this browser. */
 export function canRemember(): boolean {
   try {
     localStorage.setItem("epipole-quiz:?", "");

@@ -1,12 +1,12 @@
-// Choice of the parts that an embedded figure shows: the tables of a figure's page get a box for
-// each control and number, and a list for goals. The figure follows at once.
+// Selection of the parts that an embedded figure shows: the tables of a figure's page get a check box for each control
+// and number, and a list for goals. The figure is updated immediately.
 
-/** Attributes of the element by their names; those with the default are absent. */
+/** Attributes of the element by name; those with their default value are absent. */
 export type Choice = Record<string, string>;
 
 const GOALS: [string, string][] = [["one", "one goal"], ["all", "all goals"], ["none", "no goals"]];
 
-/** Boxes of the rows that an attribute chooses among, by the attribute. */
+/** Check boxes of the rows that an attribute selects from, by attribute. */
 type Boxes = Map<string, HTMLInputElement[]>;
 
 function addBox(row: HTMLTableRowElement, boxes: Boxes): void {
@@ -26,7 +26,7 @@ function addColumn(table: HTMLTableElement, boxes: Boxes): void {
   const head = document.createElement("th");
   head.scope = "col";
   head.textContent = "Shown";
-  // The second column, which a phone shows without scrolling.
+  // In the second column, which a phone shows without scrolling.
   table.tHead?.rows[0]?.cells[0]?.after(head);
   for (const row of table.tBodies[0]?.rows ?? []) {
     if (row.dataset.shownBy) addBox(row, boxes);
@@ -34,7 +34,7 @@ function addColumn(table: HTMLTableElement, boxes: Boxes): void {
   }
 }
 
-/** Adds the boxes and the list to a figure's section; `changed` hears of each choice. */
+/** Adds the check boxes and the list to a figure's section; `changed` is called for each choice. */
 export function startStudio(section: HTMLElement, figure: HTMLElement, changed: (choice: Choice) => void): void {
   const boxes: Boxes = new Map();
   for (const table of section.querySelectorAll<HTMLTableElement>("details table")) addColumn(table, boxes);

@@ -1,5 +1,5 @@
-// Symbols of the text that figures draw: pointing at one highlights it in the nearest figure that
-// has it. Those in the list at the chapter's start take keyboard focus.
+// Symbols of the text that figures draw: pointing at one highlights it in the nearest figure that contains it. Those in
+// the list at the start of the chapter are keyboard-focusable.
 
 interface Figure extends HTMLElement {
   light?: (symbol: string | undefined) => boolean;
@@ -9,7 +9,7 @@ interface Figure extends HTMLElement {
 const AFTER_A_TAP = 3000;
 
 let lit: Figure | undefined;
-/** Symbol under the pointer that no figure has yet; one may still be computing. */
+/** Symbol under the pointer that no figure shows yet, as one may still be computing. */
 let waiting: HTMLElement | undefined;
 let timer = 0;
 
@@ -21,7 +21,7 @@ function end(): void {
   waiting = undefined;
 }
 
-/** Vertical distance of a figure from a symbol, CSS pixels; figures out of view come last. */
+/** Returns the vertical distance of a figure from a symbol, CSS pixels; figures out of view come last. */
 function distance(figure: Element, letter: DOMRect): number {
   const { top, bottom } = figure.getBoundingClientRect();
   const apart = Math.max(top - letter.bottom, letter.top - bottom, 0);

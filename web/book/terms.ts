@@ -1,18 +1,18 @@
-// Cards for the terms of the text: pointing at one, focusing it or a tap shows its entry of the
-// glossary. Without a script, offline with half a book, and at a second tap, the link leads there.
+// Cards for the terms of the text: hovering, focusing or tapping one shows its glossary entry. Without a script,
+// offline without the glossary, and on a second tap, the link leads there.
 
-/** Time before a card appears or goes, so that a passing pointer opens none, milliseconds. */
+/** Delay before a card appears or disappears, so that a passing pointer opens none, milliseconds. */
 const DELAY_MS = 150;
-/** Space between word and card and around the card, CSS pixels. */
+/** Gap between word and card and around the card, CSS pixels. */
 const GAP = 6;
 
-/** Pages by their addresses: the glossary is fetched once. */
+/** Pages by address, so that the glossary is fetched once. */
 const pages = new Map<string, Promise<Document>>();
 let card: HTMLElement | undefined;
-/** The link whose card is shown or about to be. */
+/** Link whose card is shown or about to be shown. */
 let current: HTMLAnchorElement | undefined;
 let timer = 0;
-/** Whether focus comes back to the word from its card, which stays closed. */
+/** Whether focus returns to the word from its card, which then stays closed. */
 let isReturning = false;
 
 async function fetchPage(address: string): Promise<Document> {
@@ -21,7 +21,7 @@ async function fetchPage(address: string): Promise<Document> {
   return new DOMParser().parseFromString(await response.text(), "text/html");
 }
 
-/** Name and text of the entry that a link leads to. */
+/** Returns name and text of the entry that a link leads to. */
 async function entryOf(link: HTMLAnchorElement): Promise<[HTMLElement, HTMLElement]> {
   const [address = "", key = ""] = link.href.split("#");
   if (!pages.has(address)) pages.set(address, fetchPage(address));
@@ -38,12 +38,12 @@ async function entryOf(link: HTMLAnchorElement): Promise<[HTMLElement, HTMLEleme
   };
   const text = copy("dd", "span");
   if (!text.hasChildNodes()) throw new Error(`no entry ${key} in ${address}`);
-  // They are written for the page of the glossary.
+  // The links are relative to the page of the glossary.
   for (const inner of text.querySelectorAll("a")) inner.href = new URL(inner.getAttribute("href") ?? "", address).href;
   return [copy("dt", "strong"), text];
 }
 
-/** Places the card below the word, or above where there is more room. */
+/** Places the card below the word, or above it if there is more room. */
 function place(link: HTMLElement, shown: HTMLElement): void {
   const word = link.getBoundingClientRect();
   const { width, height } = shown.getBoundingClientRect();
@@ -74,7 +74,7 @@ async function show(link: HTMLAnchorElement): Promise<void> {
   card.className = "term-card";
   card.popover = "manual";
   card.append(name, " ", text);
-  // Right behind the word, so that the Tab key reaches the card's links next.
+  // Directly after the word, so that the Tab key reaches the card's links next.
   link.after(card);
   card.showPopover();
   link.setAttribute("aria-describedby", card.id);

@@ -1,5 +1,5 @@
-// Colors of what follows only the system: posters and the frame of the browser. The button for the
-// reader's settings.
+// Colors of elements that follow only the system: posters and the browser's frame; and the button for the reader's
+// settings.
 
 import { keepSettings, type Settings, SETTINGS_KEY, showSettings, shownSettings, storedSettings } from "./settings";
 
@@ -7,7 +7,7 @@ const DARK = "(prefers-color-scheme: dark)";
 
 function apply(): void {
   const { theme, contrast } = shownSettings();
-  // With more contrast, figures are on black.
+  // With more contrast, figures have a black background.
   const chosen = contrast ? "dark" : theme;
   for (const source of document.querySelectorAll<HTMLSourceElement>("picture > source[media]")) {
     source.dataset.media ??= source.media;
@@ -32,14 +32,14 @@ function keep(settings: Settings): void {
   apply();
 }
 
-/** Follows the settings; their panel opens from the bar. `missing` hears that its script is missing. */
+/** Follows the settings; their panel opens from the bar. `missing` is called if its script could not be loaded. */
 export function startSettings(missing: () => void): void {
   apply();
   for (const query of [DARK, "(prefers-contrast: more)", "(forced-colors: active)"]) {
     matchMedia(query).addEventListener("change", () => show(shownSettings()));
   }
   addEventListener("storage", ({ key }) => {
-    // Without a key, all of them are gone.
+    // A null key means that the whole storage was cleared.
     if (key === SETTINGS_KEY || key === null) show(storedSettings());
   });
   const button = document.querySelector<HTMLButtonElement>(".settings-button");

@@ -1,12 +1,12 @@
-// Link from a figure to the Lab: passes the matching step, parameters and the reader's photographs,
-// which this browser stores until the Lab opens.
+// Link from a figure to the Lab: passes the matching step, parameters and the reader's photographs, which this browser
+// stores until the Lab opens.
 
 interface Figure extends HTMLElement {
   readonly photographs?: readonly File[];
   readonly state?: Record<string, string>;
 }
 
-/** Step of the Lab for a figure, and the Lab's name for each of the figure's parameters. */
+/** Step of the Lab for a figure, and the Lab's name of each of the figure's parameters. */
 interface Way {
   step: (state: Record<string, string>) => string;
   knobs: Record<string, string>;
@@ -23,7 +23,7 @@ const WAYS: Record<string, Way> = {
   },
 };
 
-/** Address of the Lab for a figure's state, relative to the page's folder. */
+/** Returns the address of the Lab for a figure's state, relative to the page's folder. */
 export function addressFor(name: string, state: Record<string, string>): string {
   const way = WAYS[name];
   const link = new URLSearchParams({ step: way?.step(state) ?? "photographs" });
@@ -40,7 +40,7 @@ export function addressFor(name: string, state: Record<string, string>): string 
 async function go(figure: Figure): Promise<void> {
   const address = addressFor(figure.getAttribute("name") ?? "", figure.state ?? {});
   const photographs = figure.photographs ?? [];
-  // Store nothing unless the page there is a Lab that will read it back.
+  // Stores nothing unless that page is a Lab, which will read the photographs.
   const answer = await fetch(address).catch(() => undefined);
   const page = answer?.ok ? await answer.text() : "";
   if (!page.includes('id="lab"')) throw new Error("The Lab cannot be reached just now.");

@@ -16,10 +16,10 @@ export class Camera {
   readonly #end: () => void;
   #stream: MediaStream | undefined;
   #taken = 0;
-  /** Number of photographs ever taken; file names keep counting up. */
+  /** Number of photographs taken so far; file names keep counting up. */
   #total = 0;
 
-  /** `bring` receives each photograph, `end` is called when the dialog closes. */
+  /** Calls `bring` with each photograph, and `end` when the dialog closes. */
   constructor(bring: (name: string, jpeg: Uint8Array) => void, end: () => void) {
     this.#bring = bring;
     this.#end = end;
@@ -51,7 +51,7 @@ export class Camera {
   async #take(): Promise<void> {
     const canvas = document.createElement("canvas");
     [canvas.width, canvas.height] = [this.#video.videoWidth, this.#video.videoHeight];
-    // Before the first video frame there is nothing to take.
+    // No photograph can be taken before the first video frame.
     if (!canvas.width) return;
     const jpeg = await jpegOf(this.#video, canvas);
     this.#total += 1;

@@ -9,7 +9,7 @@ function find<T extends HTMLElement>(id: string): T {
 /** Address of the book's folder. */
 const BOOK = new URL("../../", import.meta.url);
 
-/** Loads the custom element when the first figure is opened. */
+/** Loads the custom element on first use. */
 const elements = () => import(new URL("embed/epipole.js", BOOK).href);
 
 export class FigureBeside {

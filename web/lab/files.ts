@@ -1,34 +1,32 @@
-/**
- * Files that a reader chooses or drops: folders are walked, and images decoded if the Lab cannot.
- */
+/** Files that the reader chooses or drops: traverses folders, and decodes images if the Lab cannot. */
 
-/** Formats that the Lab decodes itself, for the same pixels in every browser. */
+/** Formats decoded by the Lab itself, with the same pixels in every browser. */
 const ITS_OWN = /\.(png|jpe?g|webp|tiff?|bmp|p[bgpn]m|zip)$/i;
-/** Formats that some browsers decode. */
+/** Formats decoded by some browsers. */
 const FOREIGN = /\.(hei[cf]|avif|gif|jxl)$/i;
-/** Files that may be of cameras; the Lab tells by the content. */
+/** Files that may contain cameras; the Lab decides by content. */
 const CAMERA = /\.(ya?ml|json|xml|txt|bin|out)$/i;
-/** Files of models with poses. Points of a model are not read. */
+/** Files of models with poses. The points of a model are not read. */
 const MODEL = /^((cameras|images|rigs|frames)\.(txt|bin)|transforms\.json|sfm_data\.json)$/i;
 const QUALITY = 0.95;
 
-/** Whether a file may be of cameras, by its name. */
+/** Whether a file may contain cameras, by its name. */
 export function isCamera(file: File): boolean {
   return CAMERA.test(file.name);
 }
 
-/** Whether a file is a photograph or a project, by its name or the type that the browser gives it. */
+/** Whether a file is a photograph or a project, by its name or the type given by the browser. */
 export function isPhotographOrProject(file: File): boolean {
   return ITS_OWN.test(file.name) || FOREIGN.test(file.name) || file.type.startsWith("image/");
 }
 
-/** The dropped files, including those in dropped folders, sorted by name. */
+/** Returns the dropped files, including those in dropped folders, sorted by name. */
 export async function dropped(transfer: DataTransfer): Promise<File[]> {
   const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.() ?? null);
   if (!entries.some((entry) => entry?.isDirectory)) return [...transfer.files];
   const files: File[] = [];
   for (const entry of entries) if (entry) await walk(entry, files);
-  // From a folder, take only photographs, videos, projects, and the first model.
+  // From a folder, only photographs, videos, projects, and the first model are used.
   const models = new Set<string>();
   const isFirst = (name: string) => MODEL.test(name) && models.size < models.add(name.toLowerCase()).size;
   return files.filter((file) => isPhotographOrProject(file) || file.type.startsWith("video/") || isFirst(file.name));
@@ -51,7 +49,10 @@ async function walk(entry: FileSystemEntry, files: File[]): Promise<void> {
   for (const one of within) await walk(one, files);
 }
 
-/** A photograph in a format that the Lab reads; undefined if nobody can decode it. `foreign`: the browser did. */
+/**
+ * Returns a photograph in a format that the Lab reads; undefined if it cannot be decoded. `foreign`: decoded by the
+ * browser.
+ */
 export async function photographOf(
   file: File,
 ): Promise<{ name: string; bytes: Uint8Array; foreign: boolean } | undefined> {
@@ -67,7 +68,7 @@ export async function photographOf(
     const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/jpeg", QUALITY));
     if (blob) return await as(`${file.name}.jpg`, blob, true);
   } catch {
-    // The caller reports it.
+    // The caller reports the failure.
   }
   return undefined;
 }

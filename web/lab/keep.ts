@@ -1,12 +1,10 @@
-/**
- * Browser storage of the Lab: files across a reload, and a project for as long as the reader wants.
- */
+/** Browser storage of the Lab: files for a reload, and a project for as long as the reader wants. */
 
 import { erase, get, put } from "./store.js";
 
-/** Database of the files to restore after a reload; erased once they are read. */
+/** Database of files to restore after a reload; erased once they are read. */
 const ASIDE = "epipole-lab";
-/** Database of the project that the reader chose to keep. */
+/** Database of the project that the reader chose to store. */
 const KEPT = "epipole-lab-kept";
 
 /** Stores files. Throws if storage is blocked or full. */
@@ -26,19 +24,19 @@ export async function takeBack(): Promise<File[]> {
   }
 }
 
-/** Callbacks for changes of the kept project. */
+/** Callbacks for changes of the stored project. */
 interface Listener {
   kept(numBytes: number): void;
   notKept(why: string, isThere: boolean): void;
   forgotten(): void;
 }
 
-/** The project that the reader chose to keep. */
+/** Project that the reader chose to store. */
 export class StoredProject {
   readonly #listener: Listener;
-  /** Other open pages of the Lab; a project erased in one must not be kept again by another. */
+  /** Other open pages of the Lab; a project erased in one must not be stored again by another. */
   readonly #others = new BroadcastChannel(KEPT);
-  /** The last queued operation. Operations run in order, so that none undoes a later erasure. */
+  /** Last queued operation. Operations run in order, so that none reverts a later erasure. */
   #last: Promise<void> = Promise.resolve();
   #isThere = false;
   #isClosed = false;
@@ -61,12 +59,12 @@ export class StoredProject {
     return this.#last;
   }
 
-  /** Stops keeping: queued operations finish, later calls do nothing. */
+  /** Stops storing: queued operations finish, later calls do nothing. */
   close(): void {
     this.#isClosed = true;
   }
 
-  /** Keeps a project, replacing the previous one. */
+  /** Stores a project, replacing the previous one. */
   keep(project: Uint8Array, then: () => void): void {
     if (this.#isClosed) return;
     this.#next(async () => {
@@ -95,7 +93,7 @@ export class StoredProject {
     });
   }
 
-  /** The kept project, if any. Throws an `Error` with a message for the reader. */
+  /** Returns the stored project, if any. Throws an `Error` with a message for the reader. */
   async read(): Promise<Uint8Array | undefined> {
     let kept: unknown;
     try {
@@ -106,7 +104,7 @@ export class StoredProject {
       if (kept instanceof Blob) return new Uint8Array(await kept.arrayBuffer());
     } catch (error) {
       console.warn(error);
-      // With storage blocked, nothing can have been kept.
+      // With storage blocked, nothing can have been stored.
       if (!this.#isThere) return undefined;
     }
     throw new Error("The project that this browser keeps cannot be read any more. Forget it in the Project menu.");

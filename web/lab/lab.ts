@@ -35,7 +35,7 @@ showSettings(storedSettings());
 /** Interval for mirroring the widgets for screen readers, milliseconds. */
 const LOOK_MS = 200;
 
-/** Theme by the settings of the book and of the system. */
+/** Returns the theme by the settings of the book and of the system. */
 function theme(): string {
   if (wantsContrast()) return "high-contrast";
   const chosen = document.documentElement.dataset["theme"];
@@ -69,7 +69,7 @@ function tellPixelsOfEmulatedScreens(): void {
 async function start(): Promise<void> {
   const link = new URLSearchParams(location.search);
   const linked = link.get("sample");
-  /** A figure of the book has stored the reader's photographs, which replace the sample. */
+  /** Whether a figure of the book has stored the reader's photographs, which replace the sample. */
   const isHanded = link.get("photographs") === "brought";
   // Fetched while the module loads.
   const sample = !isHanded && (linked === null || linked === "table") ? solvedSample() : undefined;
@@ -89,7 +89,7 @@ async function start(): Promise<void> {
   };
   const workers = new WorkerPool(hear);
   const beside = new FigureBeside();
-  /** Files that the reader has given; their bytes are not in memory. */
+  /** Files given by the reader, whose bytes are not in memory. */
   const given: File[] = [];
   const camera = new Camera(
     (name, jpeg) => {
@@ -113,13 +113,13 @@ async function start(): Promise<void> {
     }
   };
   const kept = new StoredProject(lab);
-  /** Number of `given` files that the kept project contains, which need not be stored again. */
+  /** Number of `given` files in the stored project, which need not be stored again. */
   let numKept = 0;
   const askForKept = async () => {
     try {
       const project = await kept.read();
       if (project) {
-        // Readable until the project is forgotten.
+        // Readable until the project is erased.
         given.push(new File([project as BlobPart], "project.zip"));
         numKept = given.length;
         lab.keptProject(project);
@@ -204,7 +204,7 @@ async function start(): Promise<void> {
       lab.deliver();
       isUnsaved = true;
     }
-    // Poses are looked for by the names of the photographs, which may have come with them.
+    // Poses are matched by the names of photographs, possibly opened with them.
     for (const file of cameras) lab.cameraFile(file.name, new Uint8Array(await file.arrayBuffer()));
     if (cameras.length > 0) lab.cameras();
     const remarks = [
@@ -222,7 +222,7 @@ async function start(): Promise<void> {
       void take(files);
     });
   }
-  // Captured before the toolkit, which stops a drop onto its canvas and would read all files at once.
+  // Captured before the toolkit, which would stop a drop onto its canvas and read all files at once.
   for (const kind of ["dragover", "drop"] as const) {
     addEventListener(
       kind,
@@ -252,7 +252,7 @@ async function start(): Promise<void> {
   }
   void sample?.then((computed) => lab.solved(computed));
   notice.textContent = "";
-  // The toolkit receives typed text through an input of its own.
+  // The toolkit receives typed text through a hidden input.
   for (const input of document.querySelectorAll("input:not([aria-label])")) {
     input.setAttribute("aria-label", "Letters for the Lab");
   }
@@ -262,10 +262,9 @@ async function start(): Promise<void> {
   const stop = (why: unknown) => {
     console.warn(why);
     clearInterval(watch);
-    // Files not yet in the kept project are restored separately; keeping them now would restore
-    // them twice.
+    // Files not yet in the stored project are restored separately; storing them now would restore them twice.
     kept.close();
-    // Files are put aside before the page loads again.
+    // Files are set aside before the page reloads.
     isUnsaved = false;
     restart(
       notice,
@@ -275,7 +274,7 @@ async function start(): Promise<void> {
     );
   };
   canvas.addEventListener("webglcontextlost", () => stop("the context of WebGL is lost"));
-  // Running out of memory ends the module without a panic.
+  // Running out of memory stops the module without a panic.
   addEventListener("error", ({ error }) => {
     if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) stop(error);
   });
@@ -295,14 +294,13 @@ async function start(): Promise<void> {
   if (isHanded) lab.solved(before.length > 0 ? new Uint8Array() : await solvedSample());
 }
 
-/** Opens the kept project, then applies the address. */
+/** Opens the stored project, then applies the address. */
 async function open(lab: Lab, isHanded: boolean, kept: StoredProject, askForKept: () => Promise<boolean>): Promise<void> {
   const link = new URLSearchParams(location.search);
   link.delete("photographs");
   const [visit] = performance.getEntriesByType("navigation") as PerformanceNavigationTiming[];
   if ((link.has("sample") || isHanded) && visit?.type !== "reload") {
-    // The reader wants to see the linked sample or the new photographs; the kept project must not
-    // be overwritten by them.
+    // The reader wants to see the linked sample or the new photographs, which must not overwrite the stored project.
     if (await kept.read().catch(() => undefined)) {
       lab.keptAside("This browser keeps a project of yours. Open it from the Project menu.");
     }
@@ -322,7 +320,7 @@ function restart(where: HTMLElement, rest: () => File[], settled: () => Promise<
   const all = [...(isKept ? ["your project"] : []), ...(given.length > 0 ? [files] : [])];
   button.textContent = all.length > 0 ? `Start the Lab again with ${all.join(" and ")}` : "Start the Lab again";
   button.addEventListener("click", () => {
-    // Files still being added to the kept project are in it by then.
+    // Files still being added to the stored project are in it by then.
     const aside = settled().then(() => {
       const left = rest();
       return left.length > 0 ? putAside(left) : undefined;

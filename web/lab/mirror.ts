@@ -1,12 +1,11 @@
 /**
- * Hidden elements that mirror the Lab's widgets, for screen readers to find and operate. They are
- * no Tab stops: keyboard focus stays on the canvas.
+ * Hidden elements that mirror the Lab's widgets, for screen readers to find and operate. They are not Tab stops:
+ * keyboard focus stays on the canvas.
  */
 
 /**
- * Line of the module: number, role, name, value, state, minimum, maximum, step, whether the
- * widget's popup is open or closed, description, and the number of the widget that opened the list
- * containing this one.
+ * A line from the module: number, role, name, value, state, minimum, maximum, step, whether the widget's popup is open
+ * or closed, description, and the number of the widget that opened the list containing this one.
  */
 type Widget = [string, string, string, string, string, string, string, string, string, string, string];
 

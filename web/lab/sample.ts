@@ -1,12 +1,9 @@
-/**
- * Results of the sample, computed when the Lab is built, so that the Lab opens with a
- * reconstruction.
- */
+/** Results of the sample, precomputed at build time, so that the Lab opens with a reconstruction. */
 
 /** Time limit of the download, milliseconds. */
 const PATIENCE_MS = 20_000;
 
-/** The results; empty if they cannot be loaded, in which case the Lab computes the sample. */
+/** Returns the results; empty if they cannot be loaded, in which case the Lab computes the sample. */
 export async function solvedSample(): Promise<Uint8Array> {
   try {
     const answer = await fetch(new URL(LAB_SAMPLE, import.meta.url), { signal: AbortSignal.timeout(PATIENCE_MS) });

@@ -1,6 +1,4 @@
-/**
- * Stores one value per database in IndexedDB. A database exists only after something was put there.
- */
+/** Storage of one value per database in IndexedDB. A database exists only once a value has been stored. */
 
 const PLACE = "files";
 
@@ -35,9 +33,9 @@ export async function put(name: string, value: unknown): Promise<void> {
   await within(name, "readwrite", (place) => place.put(value, PLACE));
 }
 
-/** The stored value, or undefined. Throws if storage is blocked. */
+/** Returns the stored value, or undefined. Throws if storage is blocked. */
 export async function get(name: string): Promise<unknown> {
-  // Look first: opening a database would create it.
+  // Checks first, since opening a database would create it.
   const there = await indexedDB.databases?.();
   if (there && !there.some((database) => database.name === name)) return undefined;
   const value: unknown = await within(name, "readonly", (place) => place.get(PLACE) as IDBRequest<unknown>);

@@ -1,7 +1,4 @@
-/**
- * Frames of a video, decoded by the browser: candidates for each part, of which the Lab keeps the
- * sharpest.
- */
+/** Frames of a video, decoded by the browser: candidates for each part, of which the Lab uses the sharpest. */
 
 /** Number of candidate frames per part. */
 const CANDIDATES = 5;
@@ -68,7 +65,7 @@ export class Frames {
   }
 }
 
-/** The current frame of a video as a JPEG file. */
+/** Returns the current frame of a video as a JPEG file. */
 export async function jpegOf(video: HTMLVideoElement, canvas: HTMLCanvasElement): Promise<Uint8Array> {
   const context = canvas.getContext("2d");
   if (!context) throw new Error("the browser gives no canvas");
@@ -84,7 +81,7 @@ async function seek(video: HTMLVideoElement, time: number): Promise<void> {
   await sought;
 }
 
-/** Duration, seconds. Recordings without one in the header reveal it after a seek to the end. */
+/** Returns the duration, seconds. Recordings without one in the header reveal it after a seek to the end. */
 async function durationOf(video: HTMLVideoElement): Promise<number> {
   if (Number.isFinite(video.duration)) return video.duration;
   await seek(video, 1e7);

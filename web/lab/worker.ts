@@ -1,4 +1,4 @@
-/** Worker of the Lab: carries out one request after another. */
+/** Worker of the Lab, which runs one request after another. */
 
 import * as files from "epipole-lab-files";
 import * as vision from "epipole-lab-vision";
@@ -10,7 +10,7 @@ const [code, place] =
 const { compute, take_panic } = code;
 const loading = code.default({ module_or_path: new URL(place, import.meta.url) });
 
-/** Thrown out of a canceled computation. */
+/** Error thrown to leave a canceled computation. */
 const STOPPED = new Error("stopped");
 
 /** Minimum interval between progress reports, milliseconds. */
@@ -20,7 +20,7 @@ addEventListener("message", ({ data }: MessageEvent<Order>) => {
   void carryOut(data);
 });
 
-/** Whether the job is still wanted: its URL is readable. A busy worker receives no messages. */
+/** Whether the job is still needed: its URL is readable. A busy worker receives no messages. */
 function isWanted(address: string): boolean {
   const request = new XMLHttpRequest();
   request.open("GET", address, false);
@@ -61,13 +61,13 @@ async function carryOut({ work, request, wanted }: Order): Promise<void> {
       close();
       return;
     }
-    // A string is an answer; any other error broke the module.
+    // A string is an error message; any other error has broken the module.
     if (typeof problem === "string") tell({ work, problem, broken: false });
     else tell({ work, problem: sentence(problem, take_panic()), broken: true });
   }
 }
 
-/** Message for a module that stopped halfway. Without a panic, its memory could not grow. */
+/** Returns the message for a module that stopped midway. Without a panic, its memory could not grow. */
 function sentence(problem: unknown, panic: string | undefined): string {
   console.warn(panic ?? problem);
   return panic === undefined

@@ -3,9 +3,7 @@
 export interface Order {
   work: number;
   request: Uint8Array;
-  /**
-   * Blob URL that is revoked on cancellation: a busy worker receives no messages, but can read it.
-   */
+  /** Blob URL that is revoked on cancellation: a busy worker receives no messages, but can read a URL. */
   wanted: string;
 }
 

@@ -1,24 +1,24 @@
-// Which pictures of figures are kept: each in one width and theme, those that the reader sees. All
-// of them would be four times as much.
+// Selection of cached pictures of figures: each in one width and theme, as seen by the reader. All variants would take
+// four times as much.
 
-/** Width and theme in which a reader sees figures. */
+/** Width and theme in which the reader sees figures. */
 export interface Variant {
   width: number;
   theme: string;
 }
 
-/** The end of a picture's path: width in pixels, theme, hash. */
+/** End of a picture's path: width in pixels, theme, hash. */
 const PICTURE = /-(\d+)-(light|dark)-[^-]*$/;
 
-/** The variant of a picture; undefined for anything else. */
+/** Returns the variant of a picture; undefined for any other file. */
 export function variantOf(path: string): Variant | undefined {
   const [, width, theme] = PICTURE.exec(path) ?? [];
   return theme === undefined ? undefined : { width: Number(width), theme };
 }
 
 /**
- * One path of each group of pictures that show the same: in the theme, of this width, else of the
- * next smaller one, else of the smallest.
+ * Returns one path of each group of pictures that show the same: in the theme and this width, else the next smaller
+ * width, else the smallest.
  */
 export function inVariant(groups: string[][], { width, theme }: Variant): string[] {
   const distance = (path: string) => {

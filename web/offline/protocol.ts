@@ -13,5 +13,5 @@ export interface CacheRequest {
 /** Page to waiting worker: replace the running one. */
 export const TAKE_OVER = "take over";
 
-/** Worker to page: the whole book is kept. */
+/** Worker to page: the whole book is cached. */
 export const COMPLETE = "complete";

@@ -1,5 +1,5 @@
-// Service worker of a book that is being written: takes the place of that of a published one at the
-// same address, removes it with its caches, and loads the open pages anew.
+// Service worker of a book under construction: replaces that of a published one at the same address, removes it with
+// its caches, and reloads the open pages.
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
 

@@ -1,18 +1,18 @@
-// Service worker of the published book. It keeps one edition for reading without a network. While
-// that is incomplete, pages come from the server, so that they fit the files there.
+// Service worker of the published book. It caches one edition for reading without a network. While that is incomplete,
+// pages come from the server, to match the files there.
 
 import { fill, forgetOthers, isComplete, isHashed, store, cached, cachedAlternative, variantBefore } from "./edition";
 import { COMPLETE, TAKE_OVER, type CacheRequest } from "./protocol";
 
 const worker = self as unknown as ServiceWorkerGlobalScope;
 
-/** Parts of the site that are not kept: frames for other sites, manuals, notebooks, slides. */
+/** Parts of the site that are not cached: frames for other sites, manuals, notebooks, slides. */
 const ELSEWHERE = /^(embed|python|js|notebooks|slides|licenses)\/|\.(br|gz)$/;
 
 worker.addEventListener("install", (event) => event.waitUntil(install()));
 worker.addEventListener("activate", (event) => event.waitUntil(activate()));
 
-/** Waits for the reader only if a complete older edition is in use, until this one is, too. */
+/** Waits for the reader only if a complete older edition is in use, until this one is also complete. */
 async function install(): Promise<void> {
   try {
     const variant = await variantBefore();
@@ -35,7 +35,7 @@ worker.addEventListener("message", (event) => {
   else event.waitUntil(answer(event.data as CacheRequest, event.source));
 });
 
-/** Work of the earlier messages: two pages must not download the same. */
+/** Pending work: two pages must not download the same files concurrently. */
 let busy = Promise.resolve();
 
 async function answer(request: CacheRequest, source: ExtendableMessageEvent["source"]): Promise<void> {
@@ -44,7 +44,7 @@ async function answer(request: CacheRequest, source: ExtendableMessageEvent["sou
       await fill(request);
       if (await isComplete()) source?.postMessage(COMPLETE);
     } catch {
-      // No network or no room: the next page tries again.
+      // No network or no space: the next page tries again.
     }
   });
   await busy;
@@ -59,7 +59,7 @@ worker.addEventListener("fetch", (event) => {
   if (!ELSEWHERE.test(path)) event.respondWith(respond(event, path));
 });
 
-/** Never fails where the network alone would not. */
+/** Responds to a request. Never fails if the network alone would not. */
 async function respond(event: FetchEvent, path: string): Promise<Response> {
   const isOfLab = path.startsWith("lab/");
   let held: Response | undefined;
@@ -68,12 +68,12 @@ async function respond(event: FetchEvent, path: string): Promise<Response> {
     held = (await cached(path)) ?? (/\.\w+$/.test(path) ? undefined : await cached(`${path}.html`));
     if (held && !first && !isOfLab) first = await isComplete();
   } catch {
-    // Storage is forbidden.
+    // Storage is blocked.
   }
   if (held && first) return held;
   try {
     const response = await fetch(event.request);
-    // The Lab is kept once it is opened.
+    // The Lab is cached once it is opened.
     if (isOfLab && response.ok && !response.redirected) {
       event.waitUntil(store(path, response.clone()).catch(() => undefined));
     }

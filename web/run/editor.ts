@@ -1,4 +1,4 @@
-/** The editor: CodeMirror in a shadow root, where its styles need no exception of the page's policy. */
+/** The editor: CodeMirror in a shadow root, where its styles comply with the page's Content-Security-Policy. */
 
 import { acceptCompletion, autocompletion, closeBrackets, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
@@ -9,7 +9,7 @@ import { Decoration, EditorView, hoverTooltip, keymap, lineNumbers, type Decorat
 import { tags } from "@lezer/highlight";
 import type { Name } from "./names.js";
 
-/** Colors of the listings. */
+/** Colors of listings. */
 const COLORS = HighlightStyle.define([
   { tag: tags.comment, color: "var(--muted)", fontStyle: "italic" },
   { tag: [tags.keyword, tags.bool, tags.null], color: "var(--code-keyword)", fontWeight: "600" },
@@ -51,14 +51,14 @@ const faulty = StateField.define<DecorationSet>({
 /** Callbacks of an editor. */
 export interface EditorListener {
   changed(code: string): void;
-  /** Ctrl+Enter, or Cmd+Enter. */
+  /** Called on Ctrl+Enter or Cmd+Enter. */
   run(): void;
 }
 
 export class Editor {
   readonly #view: EditorView;
 
-  /** Fills an empty element. */
+  /** Creates the editor in an empty element. */
   constructor(place: HTMLElement, label: string, code: string, names: () => Promise<Name[]>, listener: EditorListener) {
     const root = place.attachShadow({ mode: "open" });
     this.#view = new EditorView({
@@ -104,12 +104,12 @@ export class Editor {
     this.#view.dispatch({ changes: { from: 0, to: this.#view.state.doc.length, insert } });
   }
 
-  /** Marks a line, counted from 1, or none. */
+  /** Marks a line, counted from 1; none if undefined. */
   mark(line: number | undefined): void {
     this.#view.dispatch({ effects: setFaulty.of(line) });
   }
 
-  /** Puts the cursor at a place, counted from 1. */
+  /** Moves the cursor to a position, counted from 1. */
   goTo(line: number, column = 1): void {
     const { from, to } = this.#view.state.doc.line(Math.min(line, this.#view.state.doc.lines));
     this.#view.dispatch({ selection: { anchor: Math.min(from + column - 1, to) }, scrollIntoView: true });

@@ -1,4 +1,4 @@
-/** `figure(name)`: a figure of the page, for the code of a reader. */
+/** `figure(name)`: a figure of the page, for readers' code. */
 
 import type { FigureFacts, Marks, Photograph, Question, Reply, ToWorker } from "./messages.js";
 import { groups } from "./numbers.js";
@@ -10,7 +10,7 @@ let asked = 0;
 
 function ask(question: Question): Promise<Reply> {
   flush();
-  // Made here, where the stack still leads to the code.
+  // Created here, while the stack still contains the reader's code.
   const refusal = new Error();
   return new Promise((resolve, reject) => {
     const id = ++asked;
@@ -34,7 +34,7 @@ class Figure {
     return this.#facts.state;
   }
 
-  /** Numbers and words that it shows. */
+  /** Numbers and texts that it shows. */
   get readouts(): Record<string, number | string> {
     return this.#facts.readouts;
   }
@@ -50,7 +50,7 @@ class Figure {
     return this.#learn({ figure: this.#name, ask: "set", parameters: Object.fromEntries(entries) });
   }
 
-  /** Draws points (x, y) and lines (a, b, c) over a panel, in place of earlier ones. */
+  /** Draws points (x, y) and lines (a, b, c) over a panel, replacing earlier ones. */
   async draw({ panel, points, lines }: { panel?: string; points?: unknown; lines?: unknown } = {}): Promise<this> {
     const marks: Marks = {
       panel: String(panel ?? this.#facts.panels[0] ?? ""),
@@ -60,12 +60,12 @@ class Figure {
     return this.#learn({ figure: this.#name, ask: "draw", marks });
   }
 
-  /** Removes what was drawn. */
+  /** Removes drawn points and lines. */
   async clear(): Promise<this> {
     return this.#learn({ figure: this.#name, ask: "clear" });
   }
 
-  /** The photograph that a panel shows. */
+  /** Returns the photograph that a panel shows. */
   async photograph(panel?: string): Promise<Photograph> {
     const wanted = String(panel ?? this.#facts.panels[0] ?? "");
     return (await ask({ figure: this.#name, ask: "photograph", panel: wanted })) as Photograph;

@@ -1,8 +1,8 @@
-/** Figures of the page, for the code of readers. */
+/** Access to figures of the page for readers' code. */
 
 import type { FigureFacts, Marks, Question, Reply } from "./messages.js";
 
-/** Time after which a figure counts as one that does not open, milliseconds. */
+/** Time limit for opening a figure, milliseconds. */
 const LATE_MS = 20_000;
 
 interface Figure extends HTMLElement {
@@ -19,7 +19,7 @@ interface Figure extends HTMLElement {
   flush(): void;
 }
 
-/** The figures of this page by name; of several with a name, the first. */
+/** Returns the figures of this page by name; of several with the same name, the first. */
 function figures(): Map<string, Figure> {
   const found = new Map<string, Figure>();
   for (const element of document.querySelectorAll<Figure>("main epipole-figure[name]")) {
@@ -29,7 +29,7 @@ function figures(): Map<string, Figure> {
   return found;
 }
 
-/** Facts of the figures that code names. Opens those that the reader has not reached yet. */
+/** Returns facts of the figures named in the code. Opens those that are not open yet. */
 export async function factsFor(code: string): Promise<Record<string, FigureFacts>> {
   const named = [...figures()].filter(([name]) => code.includes(`"${name}"`) || code.includes(`'${name}'`));
   const facts = named.map(async ([name, figure]) => {
@@ -52,7 +52,7 @@ function factsOf(figure: Figure): FigureFacts {
   return { state, readouts, data, panels };
 }
 
-/** Answers a question of the code. Rejects with a sentence. */
+/** Answers a request of the code. Rejects with a message. */
 export async function answer(question: Question): Promise<Reply> {
   const figure = figures().get(question.figure);
   if (!figure) throw new Error(`there is no figure ${question.figure} on this page`);
@@ -64,7 +64,7 @@ export async function answer(question: Question): Promise<Reply> {
   }
   if (question.ask === "set") {
     figure.apply(question.parameters);
-    // Each step of a loop is seen.
+    // Waits for a frame, so that each step of a loop is visible.
     await new Promise((done) => requestAnimationFrame(done));
     figure.flush();
     await open(figure);

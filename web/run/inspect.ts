@@ -1,10 +1,13 @@
 /** Values as text, in the style of Node's console. */
 
-/** Entries shown of an array, and characters of a line before entries get lines of their own. */
+/**
+ * Maximum number of entries shown of an array; then maximum length of a line before each entry gets its own,
+ * characters.
+ */
 const MOST = 100;
 const WIDTH = 72;
 
-/** Text of a printed value: strings as they are, everything else as code would write it. */
+/** Formats a printed value: strings unchanged, everything else as a literal. */
 export function inspect(value: unknown): string {
   return typeof value === "string" ? value : write(value, 0, new Set());
 }
@@ -46,7 +49,7 @@ function wrapped(open: string, entries: string[], close: string, depth: number):
   return `${open}\n${fill(entries, indent)}\n${indent.slice(2)}${close}`;
 }
 
-/** Short entries share lines. */
+/** Joins short entries in lines. */
 function fill(entries: string[], indent: string): string {
   const lines: string[] = [];
   let line = "";

@@ -5,7 +5,7 @@ export interface Series {
   x: readonly number[];
   y: readonly number[];
   label: string;
-  /** Points without a line. */
+  /** Whether to draw points without a line. */
   dots: boolean;
 }
 
@@ -16,20 +16,20 @@ export interface Axes {
   y: string;
 }
 
-/** A picture with marks, in its pixels. */
+/** An image with marks, in its pixels. */
 export interface Picture {
   width: number;
   height: number;
   /** Rows of red, green, blue, alpha. */
   rgba: Uint8ClampedArray<ArrayBuffer>;
   title: string;
-  /** u, v of each point. */
+  /** u and v of each point. */
   points: readonly number[];
-  /** a, b, c of each line a u + b v + c = 0. */
+  /** a, b and c of each line a u + b v + c = 0. */
   lines: readonly number[];
 }
 
-/** An error, and the place of the code where it was thrown, counted from 1. */
+/** An error, and the position in the code where it was thrown, counted from 1. */
 export interface Fault {
   name: string;
   message: string;
@@ -37,14 +37,14 @@ export interface Fault {
   column?: number | undefined;
 }
 
-/** Something that the code put out, in its order. */
+/** An item of output, in order. */
 export type Item =
   | { type: "text"; text: string; isProblem: boolean }
   | { type: "table"; columns: readonly string[]; rows: readonly (readonly string[])[] }
   | { type: "picture"; picture: Picture }
   | { type: "plot"; series: Series; axes: Axes };
 
-/** From the worker. */
+/** Message from the worker. */
 export type FromWorker =
   | { type: "items"; items: readonly Item[] }
   | { type: "ask"; id: number; question: Question }
@@ -52,7 +52,7 @@ export type FromWorker =
   | { type: "verdict"; text: string }
   | { type: "done" };
 
-/** A question about a figure of the page. */
+/** A request about a figure of the page. */
 export type Question = { figure: string } & (
   | { ask: "set"; parameters: Record<string, string> }
   | { ask: "draw"; marks: Marks }
@@ -67,7 +67,7 @@ export interface Photograph {
   data: Uint8Array;
 }
 
-/** Answer to a question: a photograph, or the facts of the figure as it is then. */
+/** Answer to a request: a photograph, or the facts of the figure after it. */
 export type Reply = Photograph | FigureFacts;
 
 /** Marks in a panel of a figure, in its world units. */
@@ -77,7 +77,7 @@ export interface Marks {
   lines: readonly number[];
 }
 
-/** A figure as code sees it. */
+/** A figure as seen by code. */
 export interface FigureFacts {
   state: Record<string, string>;
   readouts: Record<string, number | string>;
@@ -85,5 +85,5 @@ export interface FigureFacts {
   data: Record<string, unknown>;
 }
 
-/** To the worker: the answer to a question. */
+/** Message to the worker: the answer to a request. */
 export type ToWorker = { id: number; reply: Reply } | { id: number; problem: string };

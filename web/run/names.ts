@@ -1,9 +1,9 @@
 /** Names of the package and of the page, with their documentation, for completion and hints. */
 
-/** A name that code can use. */
+/** A name available to code. */
 export interface Name {
   name: string;
-  /** Its declaration. */
+  /** Declaration. */
   signature: string;
   docs: string;
   /** Whether it is a method of Vision. */
@@ -19,7 +19,7 @@ const OF_THE_PAGE: Name[] = [
 
 let reading: Promise<Name[]> | undefined;
 
-/** Reads the declarations of the package once. Without them, only the names of the page are known. */
+/** Reads the declarations of the package once. If they are missing, returns only the names of the page. */
 export function names(declarations: URL): Promise<Name[]> {
   reading ??= fetch(declarations)
     .then((response) => (response.ok ? response.text() : ""))
@@ -28,7 +28,7 @@ export function names(declarations: URL): Promise<Name[]> {
   return reading;
 }
 
-/** Methods of the interface `Functions`, each with the comment above it. */
+/** Returns the methods of the interface `Functions`, each with the comment above it. */
 export function methodsOf(declarations: string): Name[] {
   const start = declarations.indexOf("interface Functions");
   const body = start < 0 ? "" : declarations.slice(start);

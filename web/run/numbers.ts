@@ -1,8 +1,8 @@
-/** Numbers that a reader's code passes, in any nesting. */
+/** Numbers passed by a reader's code, nested in any way. */
 
 import { inspect } from "./inspect.js";
 
-/** Numbers of an array, of pairs, or of a typed array, one after the other. */
+/** Flattens an array of numbers, of pairs, or a typed array. */
 export function numbers(name: string, value: unknown): number[] {
   const isList = Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));
   if (!isList) throw new TypeError(`${name} must be an array of numbers, but is ${inspect(value)}`);
@@ -11,7 +11,7 @@ export function numbers(name: string, value: unknown): number[] {
   );
 }
 
-/** Numbers in groups of `size`; none if not given. */
+/** Flattens numbers in groups of `size`; empty if undefined. */
 export function groups(name: string, value: unknown, size: number): number[] {
   const flat = value === undefined ? [] : numbers(name, value);
   if (flat.length % size !== 0) {

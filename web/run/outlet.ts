@@ -1,12 +1,10 @@
-/**
- * Sends output to the page in pieces, so that an endless loop neither floods the page nor hides what it printed.
- */
+/** Sends output to the page in batches, so that an endless loop neither floods the page nor hides its output. */
 
 import type { FromWorker, Item } from "./messages.js";
 
-/** Most items of a run. */
+/** Maximum number of items per run. */
 export const MOST_ITEMS = 1000;
-/** Time between two pieces of output, milliseconds. */
+/** Interval between batches of output, milliseconds. */
 const PIECE_MS = 50;
 
 export const post = (message: FromWorker) => self.postMessage(message);
@@ -15,7 +13,7 @@ let count = 0;
 let sent = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
-/** Sends what is collected. */
+/** Sends the collected output. */
 export function flush(): void {
   clearTimeout(timer);
   timer = undefined;
@@ -24,7 +22,7 @@ export function flush(): void {
   items = [];
 }
 
-/** Adds to the output; nothing once a run has put out too much. */
+/** Adds an item to the output; nothing once a run exceeds the maximum. */
 export function put(item: Item): void {
   count += 1;
   if (count > MOST_ITEMS) return;

@@ -3,7 +3,7 @@
 import { pathOf } from "../src/marks.js";
 import type { Fault, Item, Picture } from "./messages.js";
 
-/** Widest a small picture is enlarged to, CSS pixels, and how many times. */
+/** Maximum width to which a small image is enlarged, CSS pixels, and maximum factor. */
 const WIDE_PX = 320;
 const MOST_TIMES = 8;
 
@@ -102,7 +102,7 @@ function tableOf({ columns, rows }: Extract<Item, { type: "table" }>): HTMLEleme
   return box;
 }
 
-/** A picture with its marks; small ones are enlarged by whole numbers, so that pixels stay squares. */
+/** Creates an image with its marks; small ones are enlarged by an integer, so that pixels stay square. */
 function pictureOf({ width, height, rgba, title, points, lines }: Picture): HTMLElement {
   const times = Math.max(1, Math.min(MOST_TIMES, Math.floor(WIDE_PX / width)));
   const canvas = document.createElement("canvas");
@@ -127,7 +127,7 @@ function pictureOf({ width, height, rgba, title, points, lines }: Picture): HTML
         { points, lines },
       ),
     );
-    // A light casing, then the color, to stand out on any picture.
+    // A light casing below the color, to stand out on any image.
     for (const [color, thickness] of [["#ffffff", 3.5], ["#c34d00", 1.75]] as const) {
       context.strokeStyle = color;
       context.lineWidth = thickness;

@@ -1,13 +1,15 @@
-/** Text as part of an address: deflated where the browser can, in base 64 without characters that addresses escape. */
+/**
+ * Text as part of an address: deflated if the browser supports it, in base 64 with characters that need no escaping.
+ */
 
-/** Longest text that a link may bring, characters. */
+/** Maximum length of the text in a link, characters. */
 const MOST = 100_000;
 
 async function through(bytes: Uint8Array<ArrayBuffer>, stream: GenericTransformStream): Promise<Uint8Array<ArrayBuffer>> {
   return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
 }
 
-/** Packs text; the first letter names the way. */
+/** Packs text; the first letter identifies the encoding. */
 export async function packed(text: string): Promise<string> {
   const plain = new TextEncoder().encode(text);
   const isDeflated = typeof CompressionStream === "function";
@@ -17,7 +19,7 @@ export async function packed(text: string): Promise<string> {
   return (isDeflated ? "d" : "p") + code;
 }
 
-/** Unpacks text. Rejects with a sentence if it is damaged. */
+/** Unpacks text. Rejects with a message if it is damaged. */
 export async function unpacked(code: string): Promise<string> {
   try {
     if (!/^[dp]/.test(code) || code.length > MOST) throw new Error("of no way that is known");
@@ -27,7 +29,7 @@ export async function unpacked(code: string): Promise<string> {
     const text = new TextDecoder("utf-8", { fatal: true }).decode(plain);
     if (text.length <= MOST) return text;
   } catch {
-    // Damaged; said below.
+    // Damaged; the error is thrown below.
   }
   throw new Error("The code in this link is damaged or longer than 100,000 characters.");
 }

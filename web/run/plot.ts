@@ -1,16 +1,16 @@
-/** Plots of numbers, loaded with the first of them. */
+/** Plots of numbers, loaded for the first one. */
 
 import uPlot from "uplot";
 import type { Axes, Series } from "./messages.js";
 
 /** Height of a plot, CSS pixels. */
 const HIGH_PX = 260;
-/** Smallest width, CSS pixels. */
+/** Minimum width, CSS pixels. */
 const LEAST_PX = 240;
 const FONT = "13px system-ui, sans-serif";
 
 export function drawPlot(place: HTMLElement, { x, y, label, dots }: Series, axes: Axes): void {
-  // A canvas does not understand light-dark().
+  // A canvas does not support light-dark().
   const color = (name: string) => {
     place.style.color = `var(${name})`;
     return getComputedStyle(place).color;
@@ -42,7 +42,7 @@ export function drawPlot(place: HTMLElement, { x, y, label, dots }: Series, axes
   place.append(title);
 }
 
-/** Values in the order of their places, as the plot wants them. */
+/** Sorts values by x, as required by the plotting library. */
 function sorted(x: readonly number[], y: readonly number[]): [number[], (number | null)[]] {
   const order = x.map((_, index) => index).filter((index) => Number.isFinite(x[index]));
   order.sort((first, second) => (x[first] ?? 0) - (x[second] ?? 0));

@@ -1,4 +1,4 @@
-/** A block of code that runs: its editor, its buttons, and its output. */
+/** A block of runnable code: its editor, its buttons, and its output. */
 
 import { Editor } from "./editor.js";
 import { answer, factsFor } from "./figures.js";
@@ -9,18 +9,18 @@ import { Session } from "./session.js";
 import { prepare, type Addresses } from "./source.js";
 import { keyOf, linkTo, load, save } from "./stored.js";
 
-/** Parts of a page that a block consists of. */
+/** Parts of a page that form a block. */
 export interface Block {
   /** Name, unique on the page. */
   name: string;
   title: string;
-  /** The part with the code as the book has it. */
+  /** Part with the code of the book. */
   part: HTMLElement;
-  /** The button that runs and stops it. */
+  /** Button that runs and stops it. */
   button: HTMLButtonElement;
-  /** Body of the function that judges the code. */
+  /** Body of the function that checks the code. */
   check?: string | undefined;
-  /** Called with the first verdict that is right. */
+  /** Called with the first correct verdict. */
   solved?: () => void;
 }
 
@@ -39,10 +39,10 @@ export class Program {
   readonly #status = document.createElement("p");
   readonly #reset = document.createElement("button");
   #session: Session | undefined;
-  /** Counts runs, so that one that was stopped while it was prepared does not start. */
+  /** Number of runs, so that a run that is stopped during its preparation does not start. */
   #run = 0;
 
-  /** Puts an editor in the place of the code. `code` is that of a link. */
+  /** Replaces the code by an editor. `code` is that of a link. */
   constructor(block: Block, code?: string) {
     this.#block = block;
     const pre = block.part.querySelector("pre");
@@ -89,7 +89,7 @@ export class Program {
     return this.#block.button.dataset.state === "running";
   }
 
-  /** Runs the code from the start; a run before it is stopped. */
+  /** Runs the code from the start; a previous run is stopped. */
   async run(): Promise<void> {
     this.#session?.stop();
     const run = ++this.#run;
@@ -127,7 +127,7 @@ export class Program {
   }
 
   #clear(): void {
-    // The recorded output gives way to that of the run.
+    // The recorded output is replaced by that of the run.
     this.#block.part.querySelector(".prints")?.setAttribute("hidden", "");
     this.#output.clear();
   }
@@ -149,7 +149,7 @@ export class Program {
   }
 
   #changed(code: string): void {
-    // For the button that copies.
+    // For the copy button.
     this.#block.part.dataset.code = code;
     const isOwn = code.trimEnd() !== this.#original;
     this.#reset.disabled = !isOwn;

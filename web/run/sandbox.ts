@@ -1,4 +1,6 @@
-/** The worker of a reader's code: console, functions of the page, errors. The code's module imports it first. */
+/**
+ * Worker environment for a reader's code: console, functions of the page, errors. The code's module imports it first.
+ */
 
 import { figure } from "./figure.js";
 import { inspect } from "./inspect.js";
@@ -8,7 +10,7 @@ import { plot, show } from "./show.js";
 
 export { begin } from "./figure.js";
 
-/** Longest printed text, characters. */
+/** Maximum length of a printed text, characters. */
 const MOST_CHARACTERS = 4000;
 
 const printer = (isProblem: boolean) => (...values: unknown[]) => {
@@ -30,14 +32,14 @@ function table(rows: unknown): void {
   put({ type: "table", columns: ["(index)", ...columns], rows: shown });
 }
 
-/** Called behind the last line of the code. */
+/** Called after the last line of the code. */
 export function finish(...verdict: unknown[]): void {
   flush();
   if (verdict.length > 0) post({ type: "verdict", text: String(verdict[0]) });
   post({ type: "done" });
 }
 
-/** The place in the code: the first frame of the stack that is in its module. */
+/** Returns an error with its position in the code: the first stack frame in its module. */
 function faultOf(problem: unknown): Fault {
   const { name = "Error", message, stack = "" } = problem instanceof Error ? problem : { message: inspect(problem) };
   const at = stack.split(location.href)[1]?.match(/^:(\d+):(\d+)/);
@@ -69,7 +71,7 @@ console.assert = (holds?: unknown, ...words: unknown[]) => {
   if (!holds) printer(true)("Assertion failed", ...words);
 };
 Object.assign(self, { show, plot, figure });
-// A reader's code leaves alone what the book and the Lab keep in this browser.
+// A reader's code must not access data that the book and the Lab store in this browser.
 for (const name of ["indexedDB", "caches", "BroadcastChannel", "Worker", "importScripts"]) {
   Object.defineProperty(self, name, { value: undefined });
 }

@@ -1,4 +1,4 @@
-/** One run of a reader's code: a worker of its own, from a module that lives as long as the run. */
+/** One run of a reader's code: a separate worker, and a module that exists as long as the run. */
 
 import type { Fault, FromWorker, Item, Question, Reply, ToWorker } from "./messages.js";
 import { firstMistake, type Prepared } from "./source.js";
@@ -6,14 +6,14 @@ import { firstMistake, type Prepared } from "./source.js";
 /** Time after which a run is reported as long, milliseconds. */
 const LONG_MS = 5000;
 
-/** Listener of a run. */
+/** Callbacks of a run. */
 export interface Listener {
   items(items: readonly Item[]): void;
-  /** The code threw, or cannot be read. Ends the run. */
+  /** Called if the code throws or cannot be parsed. Ends the run. */
   failed(fault: Fault): void;
-  /** It has run to its end, after so many milliseconds, with the verdict of its check. */
+  /** Called at the end, with the duration in milliseconds and the verdict of its check. */
   finished(duration: number, verdict: string | undefined): void;
-  /** It still runs after five seconds. */
+  /** Called if it is still running after five seconds. */
   lasts(): void;
   answer(question: Question): Promise<Reply>;
 }
@@ -35,7 +35,7 @@ export class Session {
     };
     const inCode = (fault: Fault): Fault => {
       const column = fault.line === 1 && fault.column ? Math.max(1, fault.column - shift) : fault.column;
-      // The lines behind the code are not the reader's.
+      // The lines after the code are not the reader's.
       const isInside = fault.line !== undefined && fault.line <= code.split("\n").length;
       return isInside ? { ...fault, column } : { name: fault.name, message: fault.message };
     };
@@ -48,7 +48,7 @@ export class Session {
         listener.finished(performance.now() - this.#start, this.#verdict);
       } else void this.#reply(data.id, listener.answer(data.question));
     });
-    // Errors of the running code come as messages: this one means that it did not start.
+    // Errors of the running code arrive as messages; this one means that it did not start.
     this.#worker.addEventListener("error", (event) => {
       event.preventDefault();
       const { message, lineno: line, colno: column } = event;

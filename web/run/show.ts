@@ -1,14 +1,17 @@
-/** `show` and `plot`: images and numbers of a reader's code. */
+/** `show` and `plot`: display of images and numbers of a reader's code. */
 
 import { inspect } from "./inspect.js";
 import type { Axes, Picture, Series } from "./messages.js";
 import { groups, numbers } from "./numbers.js";
 import { put } from "./outlet.js";
 
-/** Largest side of an image, pixels. */
+/** Maximum side of an image, pixels. */
 const MOST_SIDE_PX = 4096;
 
-/** Bytes as they are; other numbers from 0, or the smallest below it, to the largest. NaN is black. */
+/**
+ * Converts gray values to bytes: bytes are unchanged; other numbers are scaled from 0, or the minimum if that is
+ * negative, to the maximum. NaN is black.
+ */
 function toBytes(data: ArrayLike<number>): ArrayLike<number> {
   if (data instanceof Uint8Array || data instanceof Uint8ClampedArray) return data;
   const finite = Array.from(data).filter(Number.isFinite);
@@ -53,7 +56,7 @@ interface PlotOptions {
   dots?: boolean;
 }
 
-/** Plots numbers over places, or over their index. */
+/** Plots numbers over x values, or over their index. */
 export function plot(x: unknown, y?: unknown, options: PlotOptions = {}): void {
   const values = numbers(y === undefined ? "plot's numbers" : "y", y ?? x);
   const places = y === undefined ? values.map((_, index) => index) : numbers("x", x);

@@ -1,4 +1,4 @@
-/** A reader's code as a module: finds its imports and its mistakes of syntax. */
+/** A reader's code as a module: finds its imports and its syntax errors. */
 
 import { parser } from "@lezer/javascript";
 import type { Fault, FigureFacts } from "./messages.js";
@@ -12,21 +12,21 @@ export interface Addresses {
   vision: string;
 }
 
-/** Text of the module, and how far its first line is shifted. */
+/** Text of the module, and the offset of its first line. */
 export interface Prepared {
   text: string;
   shift: number;
 }
 
-/** Line and column of an offset, counted from 1. */
+/** Converts an offset to line and column, counted from 1. */
 export function placeOf(code: string, offset: number): { line: number; column: number } {
   const before = code.slice(0, offset).split("\n");
   return { line: before.length, column: (before.at(-1) ?? "").length + 1 };
 }
 
 /**
- * Makes a module that loads the sandbox first, gives it the figures of the page, and tells it when it has run.
- * `check` is the body of a function that returns a verdict; it sees the code's names.
+ * Creates a module that loads the sandbox first, passes it the figures of the page, and notifies it at the end. `check`
+ * is the body of a function that returns a verdict; it can access the code's names.
  */
 export function prepare(
   code: string,
@@ -63,7 +63,7 @@ export function prepare(
   return { text: `${start}${text}\n;${end}`, shift: start.length };
 }
 
-/** The first mistake of syntax, for browsers that do not name it. */
+/** Returns the first syntax error, for browsers that do not report its position. */
 export function firstMistake(code: string): Fault {
   let from = -1;
   parser.parse(code).iterate({

@@ -1,16 +1,16 @@
-/** Code of the reader: kept in this browser, and packed into links. */
+/** Code of the reader: stored in this browser, and packed into links. */
 
 import { packed, unpacked } from "./packing.js";
 
 const PREFIX = "epipole-code:";
 
-/** Key of a block's code on this page. */
+/** Returns the storage key of a block's code on this page. */
 export function keyOf(name: string): string {
   const page = location.pathname.replace(/.*\//, "").replace(/\.html$/, "") || "index";
   return `${PREFIX}${page}#${name}`;
 }
 
-/** The reader's code, if it differs from the book's. */
+/** Returns the reader's code, if it differs from the book's. */
 export function load(key: string): string | undefined {
   try {
     return localStorage.getItem(key) ?? undefined;
@@ -19,7 +19,7 @@ export function load(key: string): string | undefined {
   }
 }
 
-/** Keeps code, or forgets it. Returns false if storage is blocked or full. */
+/** Stores code, or erases it. Returns false if storage is blocked or full. */
 export function save(key: string, code: string | undefined): boolean {
   try {
     if (code === undefined) localStorage.removeItem(key);
@@ -30,14 +30,14 @@ export function save(key: string, code: string | undefined): boolean {
   }
 }
 
-/** Address of this page with code for a block, as `#run=name&code=…`. */
+/** Returns the address of this page with code for a block, as `#run=name&code=…`. */
 export async function linkTo(name: string, code: string): Promise<string> {
   const address = new URL(location.href);
   address.hash = new URLSearchParams({ run: name, code: await packed(code) }).toString();
   return address.href;
 }
 
-/** Block and code of an address. */
+/** Returns block and code of an address. */
 export async function linked(hash: string): Promise<{ name: string; code: string } | undefined> {
   const parameters = new URLSearchParams(hash.replace(/^#/, ""));
   const [name, code] = [parameters.get("run"), parameters.get("code")];

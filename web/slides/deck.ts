@@ -1,11 +1,11 @@
-// Slides of a chapter. A second window, the speaker's, shows the notes and turns both.
+// Slides of a chapter. A second window, for the speaker, shows the notes and controls both.
 
 import Reveal from "reveal.js";
 import { startOperating } from "../book/operate";
 
 /** Size of a slide, CSS pixels. */
 const SIZE = { width: 1280, height: 720 };
-/** Search part of the address of the speaker's window. */
+/** Query of the address of the speaker's window. */
 const SPEAKER = "?notes";
 
 interface Place {
@@ -21,12 +21,12 @@ async function start(): Promise<void> {
     ...SIZE,
     margin: 0.02,
     center: false,
-    // Figures take the room that is left.
+    // Figures take the remaining space.
     display: "flex",
     hash: true,
     respondToHashChanges: true,
     controlsTutorial: false,
-    // Narrow screens show the same slides, smaller.
+    // Narrow screens show the same slides, scaled down.
     scrollActivationWidth: 0,
     showNotes: isSpeaker,
     transition: isCalm ? "none" : "slide",
@@ -43,7 +43,7 @@ async function start(): Promise<void> {
   if (!isSpeaker) offerSpeaker(() => deck.getIndices());
 }
 
-/** The window opens at the slide that is shown. */
+/** Adds the button for the speaker's window, which opens at the current slide. */
 function offerSpeaker(shown: () => Place): void {
   const button = document.querySelector<HTMLButtonElement>(".speaker");
   if (!button) return;

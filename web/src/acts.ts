@@ -9,19 +9,19 @@ import { layoutWidth } from "./room.js";
 import { saveFile, savePicture } from "./saving.js";
 import type { Acts, Shell } from "./shell.js";
 
-/** The figure and its element, as actions need them. */
+/** The figure and its element, as needed by actions. */
 export interface Parts {
   host: FigureHost;
   /** The running figure. */
   renderer: () => Renderer | undefined;
   snapshot: () => Snapshot | undefined;
   shell: () => Shell;
-  /** Resolves when the figure computes nothing more. */
+  /** Resolves when the figure has finished computing. */
   answered: () => Promise<void>;
   toggleSolution: (challenge: string) => void;
 }
 
-/** Makes the actions of a tree; without a running figure they have no effect. */
+/** Creates the actions of a tree; without a running figure they have no effect. */
 export function actsOn({ host, renderer, snapshot, shell, answered, toggleSolution }: Parts): Acts {
   const name = () => host.getAttribute("name") ?? "";
   const act = (work: (engine: Engine, width: number) => string | undefined) => {
@@ -47,7 +47,7 @@ export function actsOn({ host, renderer, snapshot, shell, answered, toggleSoluti
       remove: (id) => act((engine) => engine.update({ type: "handle-removed", id })),
       click: (x, y) => {
         act((engine, width) => engine.click(width, x, y));
-        // A point that a click has made can be dragged on at once.
+        // A point created by a click can be dragged immediately.
         renderer()?.show();
       },
       set: (id, value) => act((engine) => engine.update({ type: "set", id, value })),
@@ -75,7 +75,7 @@ export function actsOn({ host, renderer, snapshot, shell, answered, toggleSoluti
   };
 }
 
-/** Makes the actions of glides and solutions. */
+/** Creates the actions of glides and solutions. */
 export function stageOn({ renderer, snapshot, shell }: Parts): Stage {
   return {
     look: () => renderer()?.ask((engine) => engine.snapshot(renderer()?.width || layoutWidth(1))),

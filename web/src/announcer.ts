@@ -5,7 +5,7 @@ import type { FigureHost } from "./host.js";
 import type { Parameters } from "./permalink.js";
 import type { Shell } from "./shell.js";
 
-/** A figure before and after something has changed. */
+/** A figure before and after a change. */
 export interface Change {
   before: Snapshot | undefined;
   now: Snapshot;
@@ -13,7 +13,7 @@ export interface Change {
   solved: Challenge[];
   /** Parameters that differ from the defaults. */
   state: Parameters;
-  /** Reader or page made the change; what happens while the page loads is not announced. */
+  /** Whether reader or page made the change; changes while the page loads are not announced. */
   touched: boolean;
 }
 
@@ -37,7 +37,7 @@ export class Announcer {
     return this.#passed;
   }
 
-  /** Starts over for another figure; whoever waits for one that never was ready goes on waiting. */
+  /** Starts over for another figure. If this one was never ready, its `whenReady` stays pending for the next. */
   forget(wasReady: boolean): void {
     this.#state = [];
     if (wasReady) this.#passed = this.#gate();

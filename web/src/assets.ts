@@ -20,7 +20,7 @@ export function setAssets(addresses: AssetAddresses): void {
   Object.assign(moved, addresses);
 }
 
-/** Address of a file, if the page has set one. */
+/** Returns the address of a file, if the page has set one. */
 export function movedTo(file: keyof AssetAddresses): URL | undefined {
   const address = moved[file];
   return address === undefined ? undefined : new URL(address, document.baseURI);

@@ -3,7 +3,7 @@
 import type { Snapshot } from "./contract.js";
 import type { Parameters } from "./permalink.js";
 
-/** Attributes that are no parameters: those of the element, and global HTML attributes. */
+/** Attributes that are not parameters: those of the element, and global HTML attributes. */
 const NOT_PARAMETERS =
   /^(name|theme|compact|controls|readouts|goals|id|class|style|slot|title|lang|dir|hidden|tabindex|role|is|part|exportparts|inert|translate|nonce|draggable|contenteditable|popover|accesskey|autofocus|item.*|aria-.*|data-.*|on.*)$/;
 
@@ -12,14 +12,14 @@ export function isParameter(name: string): boolean {
   return !NOT_PARAMETERS.test(name);
 }
 
-/** The parameters set in the page's markup. */
+/** Returns the parameters set in the page's markup. */
 export function parametersOf(element: Element): Parameters {
   return [...element.attributes]
     .filter(({ name }) => isParameter(name))
     .map(({ name, value }) => [name, value]);
 }
 
-/** New values of changed attributes; a removed attribute takes the default. */
+/** Returns new values of changed attributes; a removed attribute takes the default. */
 export function changedParameters(
   element: Element,
   records: MutationRecord[],
@@ -37,8 +37,8 @@ export function changedParameters(
 }
 
 /**
- * Complete state, to apply on top of the attributes: values other than the default, and default
- * values that override an attribute.
+ * Returns the complete state, to apply on top of the attributes: values other than the default, and default values that
+ * override an attribute.
  */
 export function wholeState(
   element: Element,
@@ -61,7 +61,7 @@ export function wholeState(
   return [...back, ...state];
 }
 
-/** Parameters as strings, as in attributes. */
+/** Converts parameters to strings, as in attributes. */
 export function textOf(parameters: Record<string, string | number | boolean>): Parameters {
   return Object.entries(parameters).map(([key, value]) => [key, String(value)]);
 }

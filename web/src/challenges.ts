@@ -1,4 +1,4 @@
-/** Goals for the reader, shown one at a time. A goal once reached stays reached. */
+/** Goals for the reader, shown one at a time. A reached goal stays reached. */
 
 import type { Choice } from "./choice.js";
 import type { Challenge, Snapshot } from "./contract.js";
@@ -20,7 +20,7 @@ export class Challenges {
   readonly #line = make("div", { class: "goal-line", tabindex: -1 });
   readonly #mark = make("span", { class: "mark" });
   readonly #goal = make("span");
-  /** The hint; once solved, the explanation. */
+  /** The hint or, once solved, the explanation. */
   readonly #note = make("p", { class: "note" });
   readonly #hint = make("button", { type: "button", "aria-expanded": "false" }, "Hint");
   readonly #show = make("button", { type: "button" }, "Show how");
@@ -28,11 +28,11 @@ export class Challenges {
   readonly #next = make("button", { type: "button", "aria-label": "Next goal" }, icon("M7.5 4.5L13 10l-5.5 5.5"));
   readonly #count = make("button", { type: "button", class: "count", "aria-expanded": "false" });
   readonly #list = make("ol", { hidden: true });
-  /** Invisible copies of all goals with their longest notes, whose height is that of any goal shown. */
+  /** Invisible copies of all goals with their longest notes, to reserve the height of the tallest. */
   readonly #room = make("div", { class: "goal-room", "aria-hidden": "true" });
   #rows: { row: HTMLElement; mark: HTMLElement }[] = [];
   readonly #solved = new Set<string>();
-  /** Goals met by the page or by a shown solution, which the reader has not reached. */
+  /** Goals reached by the page or by a shown solution, not by the reader. */
   readonly #given = new Set<string>();
   #known: Challenge[] = [];
   #goals: Choice["goals"] = "one";
@@ -40,10 +40,10 @@ export class Challenges {
   #hinted = false;
   #opened = false;
   #playing: string | undefined;
-  /** The goal whose solution has been played last. */
+  /** Goal whose solution was played last. */
   #shown: string | undefined;
 
-  /** `show` plays the solution of a goal, or stops it. */
+  /** Creates the goals; `show` plays the solution of a goal, or stops it. */
   constructor(show: (id: string) => void) {
     const shown = make("div", {}, make("p", { class: "goal" }, this.#mark, this.#goal), this.#note);
     const words = make("div", { class: "words" }, shown, this.#room);
@@ -87,7 +87,7 @@ export class Challenges {
     return news;
   }
 
-  /** All goals, with whether each has been reached. */
+  /** Goals, with their status. */
   get goals(): Goal[] {
     return this.#known.map(({ id, goal }) => ({ id, goal, solved: this.#solved.has(id) }));
   }

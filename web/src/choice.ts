@@ -1,18 +1,18 @@
-/** The page's choice of controls, readouts and goals: attributes of the same names. */
+/** Selection of controls, readouts and goals by the page, in attributes of the same names. */
 
 import type { Snapshot } from "./contract.js";
 
 export interface Choice {
-  /** Names of the only controls to show; all, if undefined. */
+  /** Names of the controls to show; all if undefined. */
   controls: string[] | undefined;
-  /** Names of the only readouts to show. */
+  /** Names of the readouts to show; all if undefined. */
   readouts: string[] | undefined;
   goals: "none" | "one" | "all";
-  /** Value of `goals` if it is invalid. */
+  /** Value of `goals`, if it is invalid. */
   odd: string | undefined;
 }
 
-/** Attributes for the choice; none is a parameter of a figure. */
+/** Attributes of the selection; none is a parameter of a figure. */
 export const CHOOSING = ["controls", "readouts", "goals"] as const;
 
 /** Reads the attributes with `get`, which returns null for a missing one. */
@@ -34,8 +34,8 @@ function namesIn(text: string | null): string[] | undefined {
 }
 
 /**
- * One message per kind of unknown name. The readouts are known only when the figure is not waiting
- * for a computation.
+ * Returns a message for each kind of unknown name. Readouts are known only when the figure is not waiting for a
+ * computation.
  */
 export function misnamed(choice: Choice, { controls, readouts, waiting }: Snapshot): string[] {
   const shown = controls.filter(({ place }) => place !== "hidden");

@@ -1,6 +1,6 @@
 /**
- * Compact layout for a fixed height: picture, main buttons and readouts. Everything else is in a
- * drawer that opens over the picture, so that nothing moves.
+ * Compact layout for a fixed height: picture, main buttons and readouts. Everything else is in a drawer that opens over
+ * the picture, to avoid layout shifts.
  */
 
 import { make, setAttribute, setText } from "./dom.js";
@@ -10,9 +10,9 @@ import { shownIn, type Size } from "./room.js";
 type Side = "below" | "beside";
 
 export class Compact {
-  /** Always visible next to the picture. */
+  /** Part that is always visible next to the picture. */
   readonly bar = make("div", { class: "bar later" });
-  /** Everything else. */
+  /** Drawer with everything else. */
   readonly drawer = make("div", { class: "drawer", id: "drawer", role: "group", "aria-label": "Settings", hidden: true });
   readonly #button = make("button", {
     type: "button",
@@ -46,14 +46,14 @@ export class Compact {
   }
 
   /**
-   * Chooses the side of the bar that leaves the most room for the picture. `picture` is the element
-   * that provides the room; `sizes` holds the size of each layout. Returns the layout width to use.
+   * Chooses the side of the bar that leaves the most room for the picture. `picture` is the element that provides the
+   * room; `sizes` holds the size of each layout. Returns the layout width.
    */
   arrange(root: HTMLElement, picture: HTMLElement, sizes: Size[]): number {
     const ways = (["below", "beside"] as Side[]).map((side) => {
       setAttribute(root, "data-compact", side);
       const { bar } = this;
-      // A cut-off bar can be scrolled, but is much worse.
+      // A cut-off bar can be scrolled, but is a last resort.
       const cut = bar.scrollHeight > bar.clientHeight + 1 || bar.scrollWidth > bar.clientWidth + 1;
       const style = getComputedStyle(picture);
       const room = {

@@ -3,7 +3,7 @@
 /** The smallest valid module. */
 const EMPTY = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
 
-/** The response is a module of another version. */
+/** Error for a module of another version. */
 class Misfit extends Error {}
 
 /**
@@ -14,7 +14,7 @@ export async function compile(answer: Promise<Response>, wanted: readonly string
   const response = await answer;
   if (!response.ok) throw new Error(`${response.status} for ${response.url}`);
   const typed = response.headers.get("Content-Type")?.startsWith("application/wasm");
-  // Some servers lack the MIME type for WebAssembly; compile those responses in one piece.
+  // Some servers lack the MIME type for WebAssembly; their responses are compiled in one piece.
   const module =
     typed && "compileStreaming" in WebAssembly
       ? await WebAssembly.compileStreaming(response)
@@ -34,9 +34,7 @@ function isAllowed(): boolean {
   }
 }
 
-/**
- * Reason why `what` is missing, without final period; distinguishes causes that the reader can fix.
- */
+/** Returns the reason why `what` is missing, without final period; distinguishes causes that the reader can fix. */
 export function whyMissing(problem: unknown, what: string): string {
   if (!isAllowed()) return `${what} needs WebAssembly, which this browser or this page does not allow`;
   if (problem instanceof Misfit || problem instanceof WebAssembly.LinkError) {

@@ -1,4 +1,4 @@
-/** Controller of an element: runs the effects of its lifecycle on the tree, the figure and the page. */
+/** Controller of an element: applies the effects of its lifecycle to the tree, the figure and the page. */
 
 import { actsOn, stageOn } from "./acts.js";
 import { Announcer } from "./announcer.js";
@@ -71,7 +71,7 @@ export class FigureController {
     return this.#renderer;
   }
 
-  /** The last snapshot presented. */
+  /** Last presented snapshot. */
   get snapshot(): Snapshot | undefined {
     return this.#snapshot;
   }
@@ -110,7 +110,7 @@ export class FigureController {
     if (parametersIn(location.search, this.#host).own.length > 0) this.dispatch({ type: "open", withAddress: true });
   }
 
-  /** Stops what the page does not see; the element may come back. */
+  /** Stops invisible work; the element may be connected again. */
   disconnect(): void {
     this.#size.stop();
     this.#stopObserving();
@@ -120,7 +120,7 @@ export class FigureController {
     this.shell.jobs.end();
   }
 
-  /** Shows the controls, readouts and goals that the attributes name. */
+  /** Shows the controls, readouts and goals named by the attributes. */
   choose(): void {
     this.#view.choose();
     if (!this.#renderer || !this.#snapshot) return;
@@ -130,14 +130,14 @@ export class FigureController {
     this.shell.speaker.complain(this.shell.misnamed(this.#snapshot));
   }
 
-  /** Takes the layout that the attribute `compact` asks for. */
+  /** Applies the layout of the attribute `compact`. */
   squeeze(): void {
     this.#view.squeeze();
     this.#size.observe();
     this.#size.fit();
   }
 
-  /** Finds and takes the colors of the page. */
+  /** Determines and applies the colors of the page. */
   recolor(): void {
     askTheme(this.#host, (theme) => {
       this.#view.theme = theme;
@@ -145,7 +145,7 @@ export class FigureController {
     });
   }
 
-  /** Tells which parameters could not be used. */
+  /** Reports parameters that could not be used. */
   warn(problems: Refused[]): void {
     this.shell.speaker.complain(problems.map(({ message }) => message));
   }
@@ -156,12 +156,12 @@ export class FigureController {
     return this.#motion.glide(parameters, duration, scroll ? this.#comeIntoView() : this.#running());
   }
 
-  /** Ends glides and solutions that play. */
+  /** Ends running glides and solutions. */
   stopMotion(): void {
     this.#motion.stop();
   }
 
-  /** Resolves when the figure computes nothing more. */
+  /** Resolves when the figure has finished computing. */
   async answered(): Promise<void> {
     while (this.#snapshot?.waiting && this.#renderer && this.shell.jobs.busy) {
       await new Promise((resolve) => setTimeout(resolve, 100));
@@ -234,7 +234,7 @@ export class FigureController {
     renderer.recolor(this.#view.theme);
     shell.speaker.warn([]);
     shell.speaker.complain([...problems.map(({ message }) => message), ...shell.misnamed(first)]);
-    // The room of a compact picture depends on the buttons and numbers in the bar.
+    // The room for a compact picture depends on the buttons and numbers in the bar.
     if (host.compact) {
       shell.update(first, this.#state);
       this.#size.fit();
@@ -261,7 +261,7 @@ export class FigureController {
     const host = this.#host;
     if (this.#view.reveal()) this.#size.observe();
     setAttribute(host, "data-ready", true);
-    // In a frame the address is the figure's alone, and the page around it would be moved.
+    // In a frame the address belongs to the figure alone, and scrolling would move the surrounding page.
     if (linked && !location.hash && parent === window) host.scrollIntoView({ block: "start" });
     this.#announcer.ready(this.#askState());
   }
@@ -292,7 +292,7 @@ export class FigureController {
     this.#announcer.emit("epipole-error", { message });
   }
 
-  /** Opens the figure wherever it is; resolves once it runs or has failed. */
+  /** Opens the figure even out of view; resolves once it runs or has failed. */
   async open(): Promise<void> {
     this.dispatch({ type: "wanted" });
     await this.#running();
@@ -305,7 +305,7 @@ export class FigureController {
     this.#renderer?.show();
   }
 
-  /** Brings the figure into view, once it runs or has failed. */
+  /** Scrolls the figure into view, once it runs or has failed. */
   async #comeIntoView(): Promise<void> {
     await this.#running();
     await bringIntoView(this.shell.picture.element);

@@ -6,7 +6,7 @@ import { fold, make, setAttribute, setText } from "./dom.js";
 type Send = (event: FigureEvent) => void;
 type Kind<K extends Control["kind"]> = Extract<Control, { kind: K }>;
 
-/** Choices whose options have more characters take the width of two inputs. */
+/** Number of characters of its options above which a choice takes the width of two inputs. */
 const BROAD_OPTIONS = 18;
 
 /** A control on the page: its element, and the function that updates it. */
@@ -51,7 +51,7 @@ export class Controls {
     this.#hideEmpty();
   }
 
-  /** Shows a stand-in's values until the next update. */
+  /** Shows the values of a stand-in until the next update. */
   borrow(tree: ParentNode): void {
     for (const output of tree.querySelectorAll("output")) {
       const shown = this.#rows.get(output.htmlFor.value.replace("control-", ""))?.element.querySelector("output");
@@ -62,14 +62,14 @@ export class Controls {
   /** Removes all controls; the next update creates them again. */
   clear(): void {
     for (const { element } of this.#rows.values()) {
-      // Chromium leaks radio buttons that are removed while in a group, and everything around them.
+      // Chromium leaks radio buttons that are removed from a group, with everything around them.
       for (const radio of element.querySelectorAll("input[type=radio]")) radio.removeAttribute("name");
     }
     this.#rows = new Map();
     for (const group of [this.inputs, this.buttons, this.#rest]) group.replaceChildren();
   }
 
-  /** The element of a control. */
+  /** Returns the element of a control. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#rows.get(id)?.element;
   }
@@ -94,7 +94,7 @@ function makeRow(control: Control, send: Send): Row {
   }
 }
 
-/** Marks a control as disabled; it keeps its place and stays focusable. */
+/** Marks a control as disabled; it stays visible and focusable. */
 function setEnabled(element: Element, control: Control): void {
   setAttribute(element, "aria-disabled", control.enabled ? undefined : "true");
 }
@@ -219,7 +219,7 @@ function buttonRow(control: Kind<"button">, send: Send): Row {
     update(now) {
       if (now.kind !== "button") return;
       shown = now;
-      // The label names the next action, so there is no pressed state in addition.
+      // The label is the next action, so no pressed state is set.
       setText(element, now.role === "run" && now.pressed ? "Pause" : now.label);
       setAttribute(element, "data-running", now.pressed);
       setEnabled(element, now);

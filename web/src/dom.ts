@@ -1,8 +1,8 @@
-/** Creates elements in one expression. */
+/** Creation of elements in one expression. */
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
-/** A new element; `true` gives an empty attribute, `false` and `undefined` none. */
+/** Creates an element; `true` gives an empty attribute, `false` and `undefined` none. */
 export function make<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   attributes: Attributes = {},
@@ -33,19 +33,19 @@ export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
 
-/** A collapsed section with a summary. */
+/** Creates a collapsed section with a summary. */
 export function fold(words: string, kind: string): HTMLDetailsElement {
   return make("details", { class: `fold ${kind}` }, make("summary", {}, words));
 }
 
-/** The sentence with a capital first letter. */
+/** Capitalizes the first letter of a sentence. */
 export function capitalize(sentence: string): string {
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
 }
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A line icon of 20 × 20, made of paths. */
+/** Creates a line icon of 20 × 20 from paths. */
 export function icon(...paths: string[]): SVGElement {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "0 0 20 20");

@@ -4,21 +4,21 @@ import type { State } from "./lifecycle.js";
 
 /** Events of a running figure, by its renderer. */
 export type DrawEvent =
-  /** Reader or page changed the figure. */
+  /** The reader or the page changed the figure. */
   | { type: "input"; now: number }
   /** A computation ended. */
   | { type: "learned" }
   | { type: "resized"; room: boolean; relayout: boolean }
   | { type: "recolored" }
-  /** Draw now, whatever it takes. */
+  /** Draw now, at any cost. */
   | { type: "flush" }
-  /** Show now what costs little. */
+  /** Show now, as far as it is cheap. */
   | { type: "show"; hidden: boolean }
   /** Idle time has prepared the first picture. */
   | { type: "prepared" }
   /** A frame was spent on preparing the first picture. */
   | { type: "slice"; prepared: boolean }
-  /** A frame of the display; `running` figures are animated, `ticked` if time has passed in them. */
+  /** A frame of the display; figures that are `running` are animated, and `ticked` if time has passed in them. */
   | { type: "frame"; now: number; running: boolean; ticked: boolean }
   | { type: "drawn"; now: number }
   /** A slice of refinement; `better` if it changed the view, `more` if there may be more to do. */
@@ -26,10 +26,10 @@ export type DrawEvent =
 
 export type DrawEffect =
   | { type: "requestFrame" }
-  /** Ends this task, then requests a frame or, with `now`, handles one at once. */
+  /** Ends this task, then requests a frame or, with `now`, handles one immediately. */
   | { type: "yield"; now: boolean }
   | { type: "draw" }
-  /** Presents the snapshot: of the painted canvas, or ahead of it. */
+  /** Presents the snapshot: that of the painted canvas, or before it is painted. */
   | { type: "present"; painted: boolean }
   /** Requests a frame after `delay` milliseconds. */
   | { type: "rest"; delay: number }
@@ -74,7 +74,7 @@ export function draw(state: State, event: DrawEvent): Next {
     case "slice": {
       const next: State = event.prepared ? { ...state, phase: "live" } : state;
       const rest: DrawEffect = { type: "yield", now: event.prepared };
-      // All but the picture is live while the poster is shown.
+      // Everything except the picture is live while the poster is shown.
       return [next, state.poster ? [PRESENT, rest] : [rest]];
     }
     case "frame":
@@ -95,7 +95,7 @@ function onFrame(state: State, now: number, running: boolean): Next {
   const refinable = state.visible && !isCovered(state) && state.phase !== "sharp";
   if (state.picture === "stale") {
     const [next, effects] = update(state);
-    // A frame that has drawn does nothing else.
+    // A frame that has drawn does no other work.
     return [next, running || refinable ? [...effects, FRAME] : effects];
   }
   if (running) return [state, [FRAME]];
@@ -111,7 +111,7 @@ function flush(state: State): Next {
   return [next, isCovered(state) ? [FRAME, ...effects] : effects];
 }
 
-/** Brings the picture up to date; of a covered one, only the snapshot. */
+/** Updates the picture; if it is covered, only the snapshot. */
 function update(state: State): Next {
   if (state.picture !== "stale") return [state, []];
   const next: State = { ...state, picture: "current" };
@@ -119,19 +119,19 @@ function update(state: State): Next {
   return [state.phase === "preparing" ? { ...next, phase: "live" } : next, [{ type: "draw" }]];
 }
 
-/** Makes the picture outdated, and what was refined. */
+/** Marks the picture and its refinement as outdated. */
 function outdate(state: State): State {
   const phase = state.phase === "refining" || state.phase === "sharp" ? "live" : state.phase;
   return { ...state, phase, picture: "stale" };
 }
 
-/** Wants the canvas in place of the poster. */
+/** Requests the canvas in place of the poster. */
 export function release(state: State): State {
   if (!isCovered(state)) return state;
   return { ...state, phase: state.phase === "warm" ? "live" : "preparing", picture: "stale" };
 }
 
-/** Whether a running figure is hidden by the poster that shows its state. */
+/** Whether a running figure is covered by the poster of its state. */
 export function isCovered({ phase }: State): boolean {
   return phase === "covered" || phase === "warm";
 }

@@ -1,7 +1,6 @@
 /**
- * Blocking script for the head of a page with prerendered figures: applies their style sheet before
- * the first paint. Their own `<link>` may load too late and shift the content below; it is for
- * readers without JavaScript.
+ * Blocking script for the head of a page with prerendered figures: applies their style sheet before the first paint.
+ * Their own `<link>` may load too late and shift the content below; it is for readers without JavaScript.
  */
 
 import { sheet } from "./sheet.js";

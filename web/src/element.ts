@@ -1,7 +1,7 @@
 /**
  * `<epipole-figure name="…">`: a figure on a page. Properties, methods and events; `controller.ts` implements them.
  *
- * One class, long because it is the whole public surface.
+ * A single class, long because it is the whole public interface.
  */
 
 import { parametersOf, textOf, wholeState } from "./attributes.js";
@@ -18,7 +18,7 @@ import { pictureOf } from "./saving.js";
 /** Default duration of a glide, milliseconds. */
 const GLIDE_MS = 600;
 
-/** A server that renders pages may import this file; it has no elements, and makes no figure. */
+/** A server that renders pages may import this file: it has no custom elements, and creates no figure. */
 const Base: typeof HTMLElement = globalThis.HTMLElement ?? class {};
 
 export class EpipoleFigure extends Base {
@@ -32,7 +32,7 @@ export class EpipoleFigure extends Base {
   }
 
   connectedCallback(): void {
-    // JupyterLab hears keys before anybody else, and does nothing on them where it finds this.
+    // JupyterLab handles keys first, and ignores those of elements with this attribute.
     setAttribute(this, "data-lm-suppress-shortcuts", true);
     // A property set before the script loads hides the accessor that sets the attribute.
     if (Object.hasOwn(this, "compact")) {
@@ -54,7 +54,9 @@ export class EpipoleFigure extends Base {
     else if (before !== null && before !== now) this.#controller.dispatch({ type: "renamed", connected: this.isConnected });
   }
 
-  /** Parameters that differ from the figure's defaults, by name. Setting puts them on top. */
+  /**
+   * Parameters that differ from the figure's defaults, by name. Setting applies parameters on top of the current ones.
+   */
   get state(): Record<string, string> {
     return Object.fromEntries(this.#controller.state);
   }
@@ -64,8 +66,8 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * Whether the figure fits the height that its page gives: picture, main buttons and numbers, the rest behind a
-   * button. The same as the attribute.
+   * Whether the figure fits the height given by its page: with picture, main buttons and numbers, and the rest in a
+   * drawer. Reflects the attribute.
    */
   get compact(): boolean {
     return this.hasAttribute("compact");
@@ -75,14 +77,14 @@ export class EpipoleFigure extends Base {
     this.toggleAttribute("compact", Boolean(compact));
   }
 
-  /** The readouts by name. */
+  /** Readouts by name. */
   get readouts(): Record<string, number | string> {
     return Object.fromEntries(this.#controller.snapshot?.readouts.map(({ id, value }) => [id, value]) ?? []);
   }
 
   /**
-   * Matches, matrices and cameras of the present state, by the names and in the shapes of `@epipole/vision`; empty for
-   * figures without any.
+   * Matches, matrices and cameras of the current state, named and shaped as in `@epipole/vision`; empty for figures
+   * without any.
    */
   get data(): Record<string, unknown> {
     return this.#controller.renderer?.ask((engine) => engine.data()) ?? {};
@@ -93,7 +95,7 @@ export class EpipoleFigure extends Base {
     return this.#controller.snapshot?.layout.panels.map(({ id }) => id) ?? [];
   }
 
-  /** The photograph that a panel shows: rows of red, green, blue. Undefined without one. */
+  /** Returns the photograph that a panel shows: rows of red, green, blue. Undefined without one. */
   photograph(panel: string): { width: number; height: number; data: Uint8Array } | undefined {
     const { renderer, snapshot } = this.#controller;
     const found = snapshot?.layout.panels.find(({ id }) => id === panel);
@@ -104,57 +106,59 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * Draws points and lines over a panel, in its world units, in place of those that a page has drawn there before.
-   * Throws a RangeError if there is no such panel.
+   * Draws points and lines over a panel, in its world units, replacing those drawn before. Throws a RangeError if there
+   * is no such panel.
    */
   draw(marks: Marks): void {
     const { shell, snapshot } = this.#controller;
     if (!snapshot) throw new Error("the figure is not ready yet: await whenReady()");
-    // Marks belong to the living picture, not to a poster.
+    // Marks are drawn on the live picture, not on a poster.
     this.#controller.dispatch({ type: "reveal" });
     shell.picture.marks.show(marks, snapshot);
   }
 
-  /** Removes what `draw` has drawn. */
+  /** Removes the marks drawn by `draw`. */
   clearMarks(): void {
     this.#controller.shell.picture.marks.clear();
   }
 
-  /** The goals, and which of them the reader has reached. */
+  /** Goals, with whether the reader has reached each. */
   get goals(): Goal[] {
     return this.#controller.shell.goals;
   }
 
-  /** The names of the goals that the reader has reached. */
+  /** Names of the goals that the reader has reached. */
   get solved(): string[] {
     return this.goals.filter(({ solved }) => solved).map(({ id }) => id);
   }
 
-  /** State and reached goals, for a page that keeps them. */
+  /** State and reached goals, for a page to store. */
   get saved(): Saved {
     return toSaved(this.getAttribute("name") ?? "", this.state, this.solved);
   }
 
   /**
-   * A readout as the figure shows it, with its unit. Undefined before it is known, as in a figure that
-   * still computes what its page has brought along.
+   * Returns a readout as displayed, with its unit. Undefined before it is known, such as while a figure with a
+   * placeholder is still computing.
    */
   readoutText(id: string): string | undefined {
     if (!this.#controller.shell.settled) return undefined;
     return this.#controller.snapshot?.readouts.find((readout) => readout.id === id)?.text;
   }
 
-  /** Photographs of the reader's own that it shows, as they were given. Told by the event `epipole-photographs`. */
+  /**
+   * Original files of the reader's photographs that it shows. Changes are announced by the event `epipole-photographs`.
+   */
   get photographs(): readonly File[] {
     return this.#controller.shell.photos.files;
   }
 
-  /** Description of the current picture in words. */
+  /** Description of the current picture. */
   get description(): string {
     return this.#controller.snapshot?.description ?? "";
   }
 
-  /** A link to this page with the figure in its present state. */
+  /** Link to this page with the figure in its current state. */
   get permalink(): string {
     const known = new Set(this.#controller.snapshot?.controls.map(({ id }) => id));
     for (const { id } of this.#controller.snapshot?.handles ?? []) known.add(id);
@@ -162,29 +166,29 @@ export class EpipoleFigure extends Base {
     return linkTo(this, wholeState(this, state, this.#controller.snapshot), (key) => known.has(key));
   }
 
-  /** The present value of a control. */
+  /** Returns the current value of a control. */
   controlValue(id: string): number | boolean | string | undefined {
     const control = this.#controller.snapshot?.controls.find((known) => known.id === id);
     return control && "value" in control ? control.value : undefined;
   }
 
-  /** A control's value as the figure shows it, with its unit. */
+  /** Returns a control's value as displayed, with its unit. */
   controlText(id: string): string | undefined {
     return this.#controller.snapshot?.controls.find((control) => control.id === id)?.value_text;
   }
 
-  /** Opens the figure without bringing it into view; resolves once it has computed what it shows, or has failed. */
+  /** Opens the figure without scrolling to it; resolves once it has computed its content, or has failed. */
   async open(): Promise<void> {
     await this.#controller.open();
     await this.#controller.answered();
   }
 
-  /** Resolves once the figure can be operated and asked. */
+  /** Resolves once the figure can be operated and queried. */
   whenReady(): Promise<void> {
     return this.#controller.whenReady;
   }
 
-  /** Takes parameters, as attributes do. */
+  /** Applies parameters, like attributes. */
   apply(parameters: Record<string, string | number | boolean>): void {
     this.#controller.dispatch({ type: "touch", own: false });
     this.#controller.stopMotion();
@@ -192,10 +196,9 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * Moves sliders and points to parameters so that it can be watched, after bringing the figure into view where that is
-   * needed and `scroll` is not false. Choices and toggles change at once, and everything does for a reader who wants no
-   * motion. Opens the figure if that has not been done. A second glide takes the first one's goal over; a reader who
-   * takes hold of the figure ends it.
+   * Animates sliders and points to parameters, after scrolling the figure into view if needed, unless `scroll` is
+   * false. Choices and toggles change immediately, and so does everything if the reader prefers reduced motion. Opens
+   * the figure if needed. A second glide also completes the first one; the reader ends a glide by operating the figure.
    */
   async glide(
     parameters: Record<string, string | number | boolean>,
@@ -206,12 +209,12 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * Lights up what the book has this letter for: a ring or a line in the color `--epipole-lit`. Nothing else stays
-   * lit. Says whether the figure shows it.
+   * Highlights only the mark of this symbol of the book: a ring or a line in the color `--epipole-lit`. Returns whether
+   * the figure shows it.
    */
   light(symbol: string | undefined): boolean {
     const found = this.#controller.shell.picture.light(symbol);
-    // A poster cannot be lit up: the same picture is drawn in its place.
+    // A poster cannot be highlighted, so the same picture is drawn in its place.
     if (found) this.#controller.dispatch({ type: "reveal" });
     return found;
   }
@@ -223,7 +226,7 @@ export class EpipoleFigure extends Base {
     this.#controller.renderer?.act((engine) => engine.update({ type: "press", id }));
   }
 
-  /** Back to the state that the page's author has set. */
+  /** Restores the state set by the page's author. */
   reset(): void {
     const controller = this.#controller;
     const { shell, renderer } = controller;
@@ -248,9 +251,8 @@ export class EpipoleFigure extends Base {
   }
 
   /**
-   * Makes the state exactly this one, as a permalink or `state` has told it: what is not named takes the
-   * figure's own default, whatever the attributes say. The goals named count as reached. Opens the figure if that
-   * has not been done.
+   * Sets exactly this state, such as from a permalink or `state`: parameters not named take the figure's own defaults,
+   * whatever the attributes. The given goals count as reached. Opens the figure if needed.
    */
   async restore(
     state: Record<string, string | number | boolean>,
@@ -269,13 +271,13 @@ export class EpipoleFigure extends Base {
     shell.recall(solved);
   }
 
-  /** Takes these goals for reached: the reader has reached them another time. Wants a figure that is ready. */
+  /** Marks these goals as reached by the reader at an earlier time. The figure must be ready. */
   recall(solved: string[]): void {
     this.#controller.shell.recall(solved);
   }
 
   /**
-   * Picture of the figure as a PNG, `scale` pixels per CSS pixel of its layout; resolves after pending computations.
+   * Returns the picture as a PNG, with `scale` pixels per CSS pixel of its layout; resolves after pending computations.
    * Null while there is no picture.
    */
   async toPng({ scale = 2 }: { scale?: number } = {}): Promise<Blob | null> {
@@ -284,12 +286,12 @@ export class EpipoleFigure extends Base {
     return renderer ? pictureOf(renderer, scale) : null;
   }
 
-  /** Shows a sentence in the figure, and on the console. */
+  /** Shows a message in the figure and on the console. */
   warn(sentence: string): void {
     this.#controller.shell.speaker.complain([sentence]);
   }
 
-  /** Shows the present state at once, without waiting for the display. */
+  /** Shows the current state immediately, without waiting for the display. */
   flush(): void {
     this.#controller.renderer?.flush();
   }

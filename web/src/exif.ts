@@ -10,11 +10,11 @@ const EXIF_DIRECTORY = 0x8769;
 const FOCAL_LENGTH_IN_35MM_FILM = 0xa405;
 /** The Exif block, if any, is near the beginning of the file. */
 export const HEAD_BYTES = 256 * 1024;
-/** The diagonal of a frame of 36 mm × 24 mm. */
+/** Diagonal of a frame of 36 mm × 24 mm. */
 const FULL_FRAME_DIAGONAL = Math.hypot(36, 24);
 
 /**
- * Focal length in units of the photograph's longer side; undefined if the file has none.
+ * Returns the focal length in units of the photograph's longer side; undefined if the file contains none.
  *
  * The 35 mm equivalent compares diagonals (CIPA DCG-001).
  */
@@ -30,15 +30,15 @@ export function focalOf(head: ArrayBuffer, width: number, height: number): numbe
 }
 
 /**
- * Whether a JPEG file ends before its image does; browsers show such a file half gray, or not at
- * all. Ignores trailing data that cameras append, and the thumbnail in the header.
+ * Whether a JPEG file ends before its image does; browsers show such a file partly gray, or not at all. Ignores
+ * trailing data appended by cameras, and the thumbnail in the header.
  */
 export function isCutOff(bytes: ArrayBuffer): boolean {
   const file = new DataView(bytes);
   if (file.byteLength < 4 || file.getUint16(0) !== START) return false;
   let at = 2;
   while (at + 4 <= file.byteLength && file.getUint16(at) !== SCAN) {
-    // Leave unknown headers to the browser.
+    // Unknown headers are left to the browser.
     if (file.getUint16(at) < 0xff00 || file.getUint16(at + 2) < 2) return false;
     at += 2 + file.getUint16(at + 2);
   }

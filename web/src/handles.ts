@@ -1,13 +1,13 @@
-/** Handles and crosshairs of a picture as elements that take focus and keys. */
+/** Handles and crosshairs of a picture as focusable elements with keyboard control. */
 
 import type { Direction, Handle, Panel, Snapshot } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
 import type { Hand, Place } from "./picture.js";
 import type { Zoom } from "./zoom.js";
 
-/** Maximum number of handles with a focus stop each; more share one, with a list to choose from. */
+/** Maximum number of handles with their own focus stops; more share one, with a list to choose from. */
 const MOST_FOCUS_STOPS = 12;
-/** Factor on the size of a space per press of + or −, or notch of the wheel. */
+/** Zoom factor of a space per press of + or −, or notch of the wheel. */
 export const ZOOM_STEP = 1.2;
 const FINE_STEPS = 0.2;
 const COARSE_STEPS = 5;
@@ -21,7 +21,7 @@ const ARROWS: Record<string, Direction> = {
 export class Handles {
   readonly marks = make("div", { class: "marks" });
   readonly #select = make("select");
-  /** A list of handles, where these are many. */
+  /** List of handles, if there are many. */
   readonly chooser = make(
     "label",
     { class: "chooser", hidden: true },
@@ -45,7 +45,7 @@ export class Handles {
     });
   }
 
-  /** Moves the handles to their places in the figure. */
+  /** Updates the handles with their positions in the figure. */
   update(snapshot: Snapshot): void {
     this.#snapshot = snapshot;
     this.#refresh();
@@ -56,7 +56,7 @@ export class Handles {
     return this.#grips.get(id);
   }
 
-  /** Gives the focus to a handle. */
+  /** Focuses a handle. */
   focus(id: string): void {
     this.#chosen = id;
     this.#refresh();
@@ -105,7 +105,7 @@ export class Handles {
       });
       grip.addEventListener("keydown", (event) => this.#onGripKey(event, id));
       this.#grips.set(id, grip);
-      // Handles before crosshairs, whenever they come: the order of Tab.
+      // Handles come before crosshairs in Tab order, whenever they are added.
       this.marks.insertBefore(grip, this.marks.querySelector(".crosshair"));
     }
     const sideways = handle.x_range[0] < handle.x_range[1];
@@ -119,7 +119,7 @@ export class Handles {
     this.#put(grip, handle.place);
   }
 
-  /** Removes a handle; its focus moves to the next, so that keys are never lost. */
+  /** Removes a handle; its focus moves to the next, so that keyboard focus is not lost. */
   #drop(id: string, element: HTMLElement, stops: Handle[]): void {
     const focused = element.matches(":focus");
     element.remove();

@@ -1,10 +1,10 @@
-/** The element and its page, as far as they concern the figure. */
+/** Interface between a figure and its element and page. */
 
 import type { Host } from "./properties.js";
 import { watchDensity, watchTheme } from "./theme.js";
 import { watchVisibility } from "./visibility.js";
 
-/** The element, as its controller needs it. */
+/** The element, as needed by its controller. */
 export interface FigureHost extends Host {
   readonly compact: boolean;
   readonly state: Record<string, string>;
@@ -15,12 +15,12 @@ export interface FigureHost extends Host {
 
 export interface HostCallbacks {
   attributes: (records: MutationRecord[]) => void;
-  /** Colors or the density of pixels may have changed. */
+  /** Called when colors or pixel density may have changed. */
   recolor: () => void;
   print: () => void;
-  /** The element is within one screen of the viewport, or no longer. */
+  /** Called when the element comes within one screen of the viewport, or leaves that range. */
   near: (near: boolean) => void;
-  /** The element is in the viewport, or no longer. */
+  /** Called when the element enters or leaves the viewport. */
   seen: (visible: boolean) => void;
 }
 
@@ -40,13 +40,13 @@ export function observeHost(host: HTMLElement, { attributes, recolor, print, nea
 }
 
 export interface ReaderCallbacks {
-  /** Pointer or focus has come to the figure. */
+  /** Called when pointer or focus enters the figure. */
   interest: () => void;
-  /** Something is done to the figure; `byReader` if no script did it, nor a key that does nothing by itself. */
+  /** Called when the figure is operated; `byReader` unless by a script, or by a key without an effect of its own. */
   takeOver: (byReader: boolean) => void;
 }
 
-/** Listens to what a reader does to the figure, before its own parts do. */
+/** Listens to the reader's input before the figure's own parts do. */
 export function listenToReader(host: HTMLElement, shadow: ShadowRoot, { interest, takeOver }: ReaderCallbacks): void {
   for (const type of ["pointerdown", "keydown", "input"]) {
     shadow.addEventListener(type, (event) => takeOver(event.isTrusted && !isModifier(event)), { capture: true });

@@ -20,9 +20,9 @@ export interface EpipoleEvents {
     state: Record<string, string>;
     readouts: Record<string, number | string>;
   }>;
-  /** The state has changed; the detail has all values other than the default. */
+  /** The state has changed; the detail contains all values other than the default. */
   "epipole-change": CustomEvent<Record<string, string>>;
-  /** A readout has changed; the detail has all readouts. */
+  /** A readout has changed; the detail contains all readouts. */
   "epipole-readout": CustomEvent<Record<string, number | string>>;
   /** The reader has reached a goal for the first time. */
   "epipole-challenge": CustomEvent<{ id: string; goal: string }>;
@@ -41,9 +41,7 @@ declare global {
   interface HTMLElementEventMap extends EpipoleEvents {}
 }
 
-/**
- * In an iframe: connects the page's only figure. A page with several connects those that it wants.
- */
+/** In an iframe, connects the page's only figure. A page with several connects the figures of its choice. */
 function connectAlone(): void {
   const [figure, another] = document.querySelectorAll("epipole-figure");
   if (figure instanceof EpipoleFigure && !another) connect(figure);

@@ -1,4 +1,4 @@
-/** Long computations of a figure, in a worker: one at a time, the newest wins. */
+/** Long computations of a figure in a worker: one at a time, the newest wins. */
 
 import { movedTo } from "./assets.js";
 import { make, setText } from "./dom.js";
@@ -8,42 +8,42 @@ export interface Request {
   name: string;
   key: string;
   request: Uint8Array;
-  /** Address of the module, if not beside the worker. */
+  /** Address of the module, if it is not beside the worker. */
   module: string | undefined;
-  /** Bypass the cache, because an earlier attempt failed. */
+  /** Whether to bypass the cache, because an earlier attempt failed. */
   anew: boolean;
 }
 
-/** Message from a worker: progress, and in the end a result or a problem. */
+/** Message from a worker: progress, and finally a result or an error. */
 export type Answer = { key: string } & (
   | { share: number }
   | { result: Uint8Array }
   | { problem: string; missing?: boolean }
 );
 
-/** Computation that a figure waits for; `request` makes its many bytes on demand. */
+/** Computation that a figure waits for; `request` creates its large input on demand. */
 export interface Wanted {
   name: string;
   key: string;
   request: () => Uint8Array;
 }
 
-/** Words for a worker or module that could not be loaded. */
+/** Text for a worker or module that could not be loaded. */
 export const CODE = "the code for this computation";
 export const TRY_AGAIN = "Reset tries again";
 
 export interface JobHooks {
-  /** Returns the computation that the figure waits for now. */
+  /** Returns the computation that the figure currently waits for. */
   next: () => Wanted | undefined;
   done: (key: string, result: Uint8Array) => void;
   failed: (key: string, sentence: string) => void;
-  /** The reader has stopped or resumed it. */
+  /** Called when the reader has stopped or resumed it. */
   turned?: () => void;
 }
 
 /** Time after which an outdated computation is terminated, milliseconds. */
 const PATIENCE_MS = 400;
-/** Time without an answer after which the code counts as slow to come, milliseconds. */
+/** Time without an answer after which the code is reported as slow to load, milliseconds. */
 const SILENCE_MS = 15_000;
 /** Delay before progress is shown, milliseconds. */
 const QUIET_MS = 200;
@@ -58,7 +58,7 @@ export class Jobs {
   #worker: Worker | undefined;
   #running: { key: string; since: number } | undefined;
   #stopped: string | undefined;
-  /** The code is slow to come. */
+  /** Whether the code is slow to load. */
   #late = false;
   /** Number of consecutive failures to load it. */
   #misses = 0;
@@ -75,7 +75,7 @@ export class Jobs {
     });
   }
 
-  /** Starts what the figure waits for, with its name; null if it waits for nothing. */
+  /** Starts the computation that the figure waits for, with its name; null if there is none. */
   follow(words: string | null): void {
     if (words === null) {
       if (this.#running) this.#overtaken();
@@ -95,7 +95,7 @@ export class Jobs {
     return this.#running !== undefined;
   }
 
-  /** Whether the reader has stopped what the figure waits for. */
+  /** Whether the reader has stopped the current computation. */
   get stopped(): boolean {
     return this.#stopped !== undefined;
   }
@@ -107,7 +107,7 @@ export class Jobs {
     this.#show(false);
   }
 
-  /** Restarts a computation that was stopped, or whose code never came. */
+  /** Restarts a computation that was stopped, or whose code was never loaded. */
   goOn(): void {
     if (this.#stopped === undefined && !this.#late) return;
     if (this.#late) this.#misses += 1;
@@ -118,7 +118,7 @@ export class Jobs {
 
   #dismiss(): void {
     if (this.#worker) {
-      // A browser may keep a worker that was ended while it loaded; it must not keep the figure.
+      // A browser may keep a worker that was terminated while loading; it must not keep the figure.
       this.#worker.onmessage = this.#worker.onerror = null;
       this.#worker.terminate();
     }
@@ -128,7 +128,7 @@ export class Jobs {
     clearTimeout(this.#silence);
   }
 
-  /** Terminates an outdated computation, unless it is so new that it may end by itself. */
+  /** Terminates an outdated computation, unless it has just started and may end by itself. */
   #overtaken(): void {
     if (this.#running && performance.now() - this.#running.since > PATIENCE_MS) this.#dismiss();
   }
@@ -151,7 +151,7 @@ export class Jobs {
     this.#worker.postMessage({ name, key, request: wanted.request(), module, anew } satisfies Request);
   }
 
-  /** Shows after a while that no answer comes. */
+  /** Reports after a while that no answer has arrived. */
   #listen(): void {
     clearTimeout(this.#silence);
     this.#silence = setTimeout(() => {
@@ -164,7 +164,7 @@ export class Jobs {
     const worker = hire(this.#misses);
     worker.onmessage = ({ data }: MessageEvent<Answer>) => this.#hear(data);
     worker.onerror = (event) => {
-      // The page does not allow workers: then here, and the page waits.
+      // The page does not allow workers, so the computation runs in the page itself.
       event.preventDefault();
       const wanted = this.#running && this.#hooks.next();
       this.#running = this.#worker = undefined;
@@ -179,13 +179,13 @@ export class Jobs {
     this.#show(true);
     this.#listen();
     setTimeout(() => {
-      // Bundlers know the file from `hire`, and here they must leave its address alone.
+      // Bundlers know the file from `hire`, and must not change its address here.
       const script: Promise<typeof import("./worker.js")> = import(
         /* webpackIgnore: true */ /* @vite-ignore */ workerUrl(this.#misses).href
       );
       script.then(
         ({ carryOut }) => {
-          // It may have been stopped while the script came.
+          // It may have been stopped while the script was loading.
           if (this.#running?.key !== key) return;
           const module = movedTo("jobs")?.href;
           const anew = this.#misses > 0;
@@ -215,7 +215,7 @@ export class Jobs {
     else this.#hooks.failed(answer.key, answer.problem);
   }
 
-  /** Ends a slow computation that the figure does not wait for any more, and starts the right one. */
+  /** Ends a slow computation that the figure no longer waits for, and starts the current one. */
   #checkWanted(): void {
     const next = this.#hooks.next();
     if (next?.key === this.#running?.key) return;
@@ -243,7 +243,10 @@ export class Jobs {
   }
 }
 
-/** Address of the worker; another one after a failure, because browsers keep failed and endless requests. */
+/**
+ * Returns the address of the worker; a different one after each failure, because browsers cache failed and hanging
+ * requests.
+ */
 function workerUrl(misses: number): URL {
   const url = movedTo("worker") ?? new URL(EPIPOLE_WORKER, import.meta.url);
   if (misses > 0 && url.protocol.startsWith("http")) url.searchParams.set("again", String(misses));
@@ -253,11 +256,11 @@ function workerUrl(misses: number): URL {
 /** Starts a worker; from another origin, by a script that imports it. */
 function hire(misses: number): Worker {
   const url = workerUrl(misses);
-  // A sandboxed frame has an address, and yet no origin of its own.
+  // A sandboxed frame has an address, but an opaque origin.
   const own = url.origin === globalThis.origin;
   if (own && (misses > 0 || movedTo("worker"))) return new Worker(url, { type: "module" });
   if (own) {
-    // Written out, because this is the form by which bundlers find the worker's file.
+    // Written in the form by which bundlers find the worker's file.
     return new Worker(new URL(EPIPOLE_WORKER, import.meta.url), { type: "module" });
   }
   const hop = new Blob([`import ${JSON.stringify(url.href)};`], { type: "text/javascript" });

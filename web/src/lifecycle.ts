@@ -1,12 +1,13 @@
 /**
- * Lifecycle of a figure as a reducer: events in, next state and effects out. It knows neither the DOM nor the module.
+ * Lifecycle of a figure as a reducer: events in, next state and effects out. It depends on neither the DOM nor the
+ * module.
  *
  *     poster ──→ loading ──→ covered ──→ warm        the page's poster is shown
  *                   │           │          │
  *                   └──────→ preparing ──→ live ──→ refining ──→ sharp
  *                                            ↑__________│__________│
  *
- * A rename leads from everywhere to `poster`, a failed load or a panic to `failed`. Both open again.
+ * A rename leads from any phase to `poster`, a failed load or a panic to `failed`. Both can open again.
  */
 
 import { draw, FRAME, isCovered, release, type DrawEffect, type DrawEvent } from "./drawing.js";
@@ -14,54 +15,54 @@ import { draw, FRAME, isCovered, release, type DrawEffect, type DrawEvent } from
 export type Phase =
   /** No figure runs. */
   | "poster"
-  /** The module is on its way, or the figure waits for its turn. */
+  /** The module is loading, or the figure waits for its turn. */
   | "loading"
-  /** The figure runs; the poster shows its state. Its first picture is prepared in idle time. */
+  /** The figure runs, covered by the poster of its state. Its first picture is prepared in idle time. */
   | "covered"
   /** Covered, with the first picture prepared. */
   | "warm"
-  /** The first picture is wanted, and prepared in slices. */
+  /** The first picture is needed, and prepared in slices. */
   | "preparing"
   /** The canvas follows the figure. */
   | "live"
-  /** The reader rests; the view is refined in slices. */
+  /** The reader is idle; the view is refined in slices. */
   | "refining"
   /** Nothing is left to refine. */
   | "sharp"
-  /** No figure runs, and a notice says why. */
+  /** No figure runs, and a notice gives the reason. */
   | "failed";
 
 export interface State {
   phase: Phase;
-  /** Number of the newest attempt to load; results of older ones are dropped. */
+  /** Number of the latest attempt to load; results of older ones are dropped. */
   attempt: number;
-  /** The first snapshot has been presented. */
+  /** Whether the first snapshot has been presented. */
   ready: boolean;
 
-  /** Within one screen of the viewport. */
+  /** Whether it is within one screen of the viewport. */
   near: boolean;
-  /** In the viewport. */
+  /** Whether it is in the viewport. */
   visible: boolean;
-  /** Pointer or focus has come to the figure. */
+  /** Whether pointer or focus has entered the figure. */
   interested: boolean;
-  /** Reader or page have changed something; changes before that are not announced. */
+  /** Whether the reader or the page has changed anything; earlier changes are not announced. */
   touched: boolean;
-  /** The last change is the reader's: goals that the page or a shown solution reach do not count. */
+  /** Whether the last change is the reader's: goals reached by the page or by a shown solution do not count. */
   own: boolean;
-  /** Address and poster of the page belong to another figure. */
+  /** Whether address and poster of the page belong to another figure. */
   renamed: boolean;
 
-  /** The address of the page has set the state of the figure. */
+  /** Whether the address of the page has set the state of the figure. */
   linked: boolean;
-  /** The poster stays until the first picture is drawn. */
+  /** Whether the poster is shown, until the first picture is drawn. */
   poster: boolean;
-  /** The figure waits for a computation, or has not been presented yet. */
+  /** Whether the figure waits for a computation, or has not been presented yet. */
   waiting: boolean;
-  /** Names in the element's attributes have been compared with those of the figure. */
+  /** Whether names in the element's attributes have been compared with those of the figure. */
   checked: boolean;
-  /** The picture has a width to be drawn at. */
+  /** Whether the picture has a width to be drawn at. */
   room: boolean;
-  /** Canvas relative to the view: up to date, less refined, or outdated. */
+  /** State of the canvas relative to the view: up to date, less refined, or outdated. */
   picture: "current" | "coarse" | "stale";
   /** Times of the last input and of the last drawing, milliseconds. */
   lastInput: number;
@@ -79,13 +80,13 @@ export type LifecycleEvent =
   /** The page animates the figure, in view or not. */
   | { type: "wanted" }
   | { type: "touch"; own: boolean }
-  /** The canvas has to show what the poster cannot. */
+  /** The canvas must show what the poster cannot. */
   | { type: "reveal" }
-  /** The page or its address ask for the figure, near or not. */
+  /** The page or its address requests the figure, near or not. */
   | { type: "open"; withAddress: boolean }
   /** A figure runs; `covered` if the poster shows its state, `linked` if the address has set it. */
   | { type: "started"; covered: boolean; waiting: boolean; linked: boolean }
-  /** The figure has not opened, or its module has panicked. */
+  /** The figure could not be opened, or its module has panicked. */
   | { type: "failed"; sentence: string; retry?: boolean }
   | { type: "snapshot"; waiting: boolean }
   | { type: "presented" };
@@ -93,7 +94,7 @@ export type LifecycleEvent =
 export type Effect =
   | DrawEffect
   | { type: "load"; attempt: number; withAddress: boolean }
-  /** Ends the figure and replaces its tree; `wasReady` if `whenReady` has to be a new promise. */
+  /** Ends the figure and replaces its tree; with `wasReady`, `whenReady` becomes a new promise. */
   | { type: "dispose"; wasReady: boolean }
   | { type: "fail"; sentence: string; retry: boolean }
   | { type: "checkNames" }
@@ -101,7 +102,7 @@ export type Effect =
 
 type Next = [State, Effect[]];
 
-/** State of a figure that has just been started, so far as its element does not matter. */
+/** State of a figure that has just started, except for fields that depend on its element. */
 const STARTED = {
   ready: false,
   waiting: true,
@@ -155,7 +156,7 @@ export function reduce(state: State, event: LifecycleEvent): Next {
     case "started":
       return start(state, event);
     case "failed": {
-      // A figure that was ready has a Reset of its own.
+      // A figure that was ready has its own Reset.
       const { sentence, retry = !state.ready || !isRunning(state) } = event;
       return [{ ...state, phase: "failed", attempt: state.attempt + 1 }, [{ type: "fail", sentence, retry }]];
     }
@@ -166,7 +167,7 @@ export function reduce(state: State, event: LifecycleEvent): Next {
       return [shown, check ? [{ type: "checkNames" }, ...effects] : effects];
     }
     case "presented": {
-      // A listener to what was announced may have renamed the figure.
+      // A listener to an announcement may have renamed the figure.
       if (state.ready || !isRunning(state)) return stay(state);
       return [{ ...state, ready: true }, [{ type: "becomeReady", linked: state.linked }]];
     }
@@ -175,7 +176,7 @@ export function reduce(state: State, event: LifecycleEvent): Next {
   }
 }
 
-/** Releases a figure, unless it waits for the very result that the poster shows. */
+/** Shows the live figure, unless it still waits for the result shown in the poster. */
 function showLive(state: State): Next {
   return isCovered(state) && !state.waiting ? [release(state), [FRAME]] : stay(state);
 }

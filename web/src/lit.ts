@@ -16,7 +16,7 @@ export class Lit {
     this.element.setAttribute("aria-hidden", "true");
   }
 
-  /** Highlights the symbol of this name only. Returns whether the picture has it. */
+  /** Highlights only the symbol with this name. Returns whether the picture shows it. */
   show(name: string | undefined, snapshot: Snapshot | undefined): boolean {
     this.#name = name;
     const found = snapshot?.symbols.filter((symbol) => symbol.name === name) ?? [];
@@ -24,7 +24,7 @@ export class Lit {
     return found.length > 0;
   }
 
-  /** Follows changes of the picture. */
+  /** Updates the highlight with the picture. */
   update(snapshot: Snapshot): void {
     if (this.#name !== undefined) this.show(this.#name, snapshot);
   }

@@ -10,9 +10,9 @@ const RADIUS = 5;
 export interface Marks {
   /** Name of the panel. */
   panel: string;
-  /** x and y of each point, one after the other. */
+  /** x and y of each point, consecutively. */
   points?: readonly number[];
-  /** a, b and c of each line a x + b y + c = 0, one after the other. */
+  /** a, b and c of each line a x + b y + c = 0, consecutively. */
   lines?: readonly number[];
 }
 
@@ -25,7 +25,7 @@ export class MarkLayer {
     this.element.setAttribute("aria-hidden", "true");
   }
 
-  /** Replaces the marks of a panel. Throws a RangeError, with the panels that exist. */
+  /** Replaces the marks of a panel. Throws a RangeError that lists the panels. */
   show(marks: Marks, snapshot: Snapshot): void {
     const panels = snapshot.layout.panels.map(({ id }) => id);
     if (!panels.includes(marks.panel)) {
@@ -41,7 +41,7 @@ export class MarkLayer {
     this.element.replaceChildren();
   }
 
-  /** Follows changes of the layout. */
+  /** Updates the marks with the layout. */
   update({ layout }: Snapshot): void {
     if (this.#marks.size === 0) return;
     this.element.setAttribute("viewBox", `0 0 ${layout.width} ${layout.height}`);
@@ -60,7 +60,7 @@ export class MarkLayer {
   }
 }
 
-/** SVG path of marks in a panel, those outside of it left out. */
+/** Returns the SVG path of marks in a panel, without those outside of it. */
 export function pathOf(
   { rect, x_axis, y_axis }: Pick<Panel, "rect" | "x_axis" | "y_axis">,
   { points = [], lines = [] }: Pick<Marks, "points" | "lines">,
@@ -89,7 +89,7 @@ export function pathOf(
 
 type Place = [x: number, y: number];
 
-/** Intersections of a line with the edges of a rectangle: two, or none. */
+/** Returns the intersections of a line with the edges of a rectangle: two, or none. */
 function clipped(a: number, b: number, c: number, left: number, top: number, right: number, bottom: number): Place[] {
   const found: Place[] = [];
   for (const x of [left, right]) {

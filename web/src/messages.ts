@@ -1,6 +1,6 @@
 /**
- * Messages between a figure in an iframe and its host page: height (LTI), score and saved state
- * (SPLICE, Perseus). Only messages of the direct parent are accepted.
+ * Messages between a figure in an iframe and its host page: height (LTI), score and saved state (SPLICE, Perseus). Only
+ * messages of the direct parent are accepted.
  */
 
 import type { EpipoleFigure } from "./element.js";
@@ -44,7 +44,7 @@ function addressOf(figure: EpipoleFigure): string {
   return location.origin + location.pathname + (figure.id ? `#${figure.id}` : "");
 }
 
-/** State, scores and events. */
+/** Exchanges state, scores and events. */
 function talk(figure: EpipoleFigure, activity_id: string): () => void {
   let touched = false;
   let unreported = false;
@@ -130,7 +130,7 @@ function watchHeight(figure: EpipoleFigure): () => void {
   const measure = () => {
     const { body } = document;
     const { bottom } = body.getBoundingClientRect();
-    // Not the document's height, which is never less than the iframe's.
+    // The document's height is not used, as it is never less than the iframe's.
     const height = Math.ceil(bottom + scrollY + parseFloat(getComputedStyle(body).marginBottom));
     if (figure.compact || Math.abs(height - told) < HEIGHT_STEP) return;
     told = height;

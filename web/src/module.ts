@@ -9,7 +9,7 @@ import type { Photo } from "./photos.js";
 
 type Loaded = { memory: WebAssembly.Memory };
 
-/** Exports that this script requires; a class's methods are prefixed with its name. */
+/** Exports required by this script; methods of a class are prefixed with its name. */
 const WANTED = [
   "figures",
   "take_panic",
@@ -42,7 +42,7 @@ const loader = {
   async try(): Promise<void> {
     const attempt = ++this.attempt;
     this.abort.abort();
-    // The generated script would join a new attempt to one that is still running.
+    // The generated script would merge a new attempt with one that is still running.
     await this.ended;
     if (attempt !== this.attempt) return;
     this.abort = new AbortController();
@@ -50,7 +50,7 @@ const loader = {
       for (const tell of this.slow) tell();
     }, SLOW_MS);
     const { signal } = this.abort;
-    // Bypass the cache on a retry: its copy failed before.
+    // Bypasses the cache on a retry, since the cached copy failed before.
     const cache = attempt > 1 ? "reload" : "default";
     const answer = fetch(movedTo("figures") ?? new URL(EPIPOLE_WASM, import.meta.url), { signal, cache });
     this.ended = compile(answer, WANTED)
@@ -80,7 +80,7 @@ export async function loadModule(slow: () => void = () => {}): Promise<Loaded> {
   }
 }
 
-/** Requests the module again, replacing a request that hangs. */
+/** Requests the module again, replacing a hanging request. */
 export function hurryModule(): void {
   if (loader.loading) void loader.try();
 }
@@ -91,7 +91,7 @@ export async function listFigures(): Promise<{ name: string; title: string; help
   return JSON.parse(figures());
 }
 
-/** Message of the last panic. */
+/** Returns the message of the last panic. */
 export function panicMessage(): string | undefined {
   return take_panic();
 }
@@ -101,7 +101,7 @@ export class Engine {
   readonly #figure: Figure;
   readonly #memory: WebAssembly.Memory;
 
-  /** Throws a string if there is no figure of this name. */
+  /** Throws a string if there is no figure with this name. */
   constructor(name: string, memory: WebAssembly.Memory) {
     this.#figure = new Figure(name);
     this.#memory = memory;
@@ -153,7 +153,7 @@ export class Engine {
     }
   }
 
-  /** The events that reach a goal from the default state. */
+  /** Returns the events that reach a goal from the default state. */
   solution(challenge: string): FigureEvent[] {
     return JSON.parse(this.#figure.solution(challenge));
   }
@@ -188,22 +188,22 @@ export class Engine {
     return refused;
   }
 
-  /** Values of the state. */
+  /** Returns values of the state. */
   data(): Record<string, unknown> {
     return JSON.parse(this.#figure.data());
   }
 
-  /** Rows of red, green, blue of a panel's photograph, copied out of the module's memory; empty without one. */
+  /** Returns rows of red, green, blue of a panel's photograph, copied from the module's memory; empty without one. */
   photograph(panel: string): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.#figure.photograph(panel));
   }
 
-  /** The file to save besides the picture, copied out of the module's memory. */
+  /** Returns the file to save besides the picture, copied from the module's memory. */
   file(): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.#figure.file());
   }
 
-  /** The long computation that the figure waits for, if any. */
+  /** Returns the long computation that the figure waits for, if any. */
   job(): { key: string; request: () => Uint8Array } | undefined {
     const key = this.#figure.job_key();
     return key === undefined ? undefined : { key, request: () => this.#figure.job_request() };
@@ -222,7 +222,7 @@ export class Engine {
     try {
       this.#figure.free();
     } catch {
-      // After a panic, the figure counts as borrowed forever.
+      // After a panic, the figure stays borrowed.
     }
   }
 

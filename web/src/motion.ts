@@ -1,6 +1,6 @@
 /**
  * Animations of a figure: glides to parameters, and solutions of goals. They move what a reader can move, and end when
- * the reader takes over.
+ * the reader takes control.
  */
 
 import type { FigureEvent, Refused, Snapshot } from "./contract.js";
@@ -8,23 +8,23 @@ import type { Engine } from "./module.js";
 import type { Parameters } from "./permalink.js";
 import { wantsStillness } from "./theme.js";
 
-/** The figure, as animations need it. */
+/** The figure, as needed by animations. */
 export interface Stage {
-  /** Returns the present state. */
+  /** Returns the current snapshot. */
   look: () => Snapshot | undefined;
-  /** Changes the figure, without telling what it refuses. */
+  /** Changes the figure, without reporting refusals. */
   move: (work: (engine: Engine) => string | undefined) => void;
-  /** Puts parameters on top of the state; returns those that could not be used. */
+  /** Applies parameters on top of the state; returns those that could not be used. */
   apply: (parameters: Parameters) => Refused[];
-  /** Returns whether a long computation runs. */
+  /** Returns whether a long computation is running. */
   busy: () => boolean;
-  /** Stops or resumes the clock of the figure. */
+  /** Stops or resumes the figure's clock. */
   freeze: (frozen: boolean) => void;
-  /** Marks what has changed between two snapshots. */
+  /** Marks the changes between two snapshots. */
   mark: (before: Snapshot, now: Snapshot) => void;
   /** Returns the events that reach a goal from the default state. */
   solution: (challenge: string) => FigureEvent[] | undefined;
-  /** Brings the figure to its default state. */
+  /** Resets the figure to its default state. */
   reset: () => void;
   /** Shows which goal's solution is playing. */
   playing: (challenge: string | undefined) => void;
@@ -38,7 +38,7 @@ const PAUSE_MS = 350;
 /** Maximum duration of all ticks of a solution, milliseconds. */
 const TICKS_MS = 3000;
 
-/** Moves the figure to a share of its way. */
+/** Moves the figure to a fraction of its path. */
 type Step = (share: number) => void;
 
 export class Motion {
@@ -53,7 +53,7 @@ export class Motion {
     this.#stage = stage;
   }
 
-  /** Ends glides and solutions where they are. */
+  /** Ends glides and solutions in their current state. */
   stop(): void {
     this.#turn += 1;
     this.#target.clear();
@@ -62,8 +62,8 @@ export class Motion {
   }
 
   /**
-   * Glides to parameters, and to those of a glide that this one interrupts. Resolves when the figure is there, or when
-   * something else has taken over.
+   * Glides to parameters, and to those of a glide that this one interrupts. Resolves when the figure has reached them,
+   * or when something else has taken control.
    */
   async glide(parameters: Parameters, duration: number, ready: Promise<unknown>): Promise<Refused[]> {
     if (this.#playing !== undefined) this.stop();
@@ -87,7 +87,7 @@ export class Motion {
     if (jumps.length > 0) this.#stage.apply(jumps);
     if (steps.length > 0) await this.#run(turn, duration, (share) => steps.forEach((step) => step(share)));
     if (turn !== this.#turn) return [];
-    // Exactly what was asked for, not what it was rounded to on the way.
+    // Sets the exact targets, not the values rounded on the way.
     const refused = this.#stage.apply(target);
     this.#target.clear();
     const now = this.#stage.look();
@@ -113,7 +113,7 @@ export class Motion {
     this.#stage.playing(challenge);
   }
 
-  /** Plays events one after the other, until something else takes over. */
+  /** Plays events in order, until something else takes control. */
   async #play(events: FigureEvent[], turn: number): Promise<void> {
     const ticks = events.filter(({ type }) => type === "tick").length;
     this.#stage.freeze(ticks > 0);
@@ -143,7 +143,7 @@ export class Motion {
     return this.#eventStep(snapshot, { type: "handle-moved", id: key, x, y });
   }
 
-  /** Returns how to do an event gradually; undefined for events that are instantaneous. */
+  /** Returns how to perform an event gradually; undefined for instantaneous events. */
   #eventStep({ controls, handles }: Snapshot, event: FigureEvent): Step | undefined {
     const between = (from: number, to: number, share: number) => from + share * (to - from);
     if (event.type === "set") {
@@ -171,7 +171,7 @@ export class Motion {
       );
   }
 
-  /** Takes a step with each frame until the end; one step for readers who prefer reduced motion. */
+  /** Calls a step in each frame until the end; only once for readers who prefer reduced motion. */
   async #run(turn: number, duration: number, step: Step): Promise<void> {
     if (wantsStillness() || document.hidden || !(duration > 0)) {
       step(1);
@@ -201,7 +201,7 @@ export class Motion {
   }
 }
 
-/** Resolves with the next frame of the display, or after a quarter of a second where none comes. */
+/** Resolves in the next frame of the display, or after a quarter of a second if there is none. */
 function nextFrame(): Promise<void> {
   return new Promise((resolve) => {
     const frame = requestAnimationFrame(() => done());

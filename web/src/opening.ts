@@ -1,4 +1,4 @@
-/** Opening of a figure: the module, the engine, and the state that attributes, address and early properties ask for. */
+/** Opening of a figure: the module, the engine, and the state requested by attributes, address and early properties. */
 
 import { parametersOf } from "./attributes.js";
 import { whyMissing } from "./compile.js";
@@ -8,7 +8,7 @@ import { parametersIn } from "./permalink.js";
 import { defineProperties, type Host } from "./properties.js";
 import { myTurn } from "./visibility.js";
 
-/** Reason why a figure does not open, as a sentence, and whether another attempt may help. */
+/** Reason why a figure does not open, as a message, and whether a retry may help. */
 export class Failure {
   constructor(
     readonly sentence: string,
@@ -18,13 +18,13 @@ export class Failure {
 
 export interface Attempt {
   isCurrent: () => boolean;
-  /** Whether a reader waits for this very figure. */
+  /** Whether a reader waits for this figure in particular. */
   isUrgent: () => boolean;
-  /** Called if the module takes long. */
+  /** Called if the module loads slowly. */
   slow: () => void;
 }
 
-/** Loads the module and makes a figure in it, unless another attempt has begun. Throws a `Failure`. */
+/** Loads the module and creates a figure in it, unless another attempt has started. Throws a `Failure`. */
 export async function openEngine(name: string, { isCurrent, isUrgent, slow }: Attempt): Promise<Engine | undefined> {
   let memory: WebAssembly.Memory;
   try {
@@ -32,7 +32,7 @@ export async function openEngine(name: string, { isCurrent, isUrgent, slow }: At
   } catch (problem) {
     throw new Failure(`${whyMissing(problem, "The interactive part of this figure")}.`, true);
   }
-  // Figures that have waited for the module would all open in one long task.
+  // Figures that have waited for the module would otherwise all open in one long task.
   if (!isUrgent()) await myTurn();
   if (!isCurrent()) return undefined;
   try {
@@ -49,16 +49,16 @@ export interface Opened {
   first: Snapshot;
   /** Parameters that could not be used. */
   problems: Refused[];
-  /** The address of the page has parameters for this figure. */
+  /** Whether the address of the page has parameters for this figure. */
   linked: boolean;
 }
 
-/** Brings a new engine into its first state, the address included if `withAddress`. */
+/** Brings a new engine into its initial state, including the address if `withAddress`. */
 export function openState(engine: Engine, host: Host, width: number, withAddress: boolean): Opened {
   const problems = engine.apply(parametersOf(host));
   const { own, loose } = parametersIn(withAddress ? location.search : "", host);
   problems.push(...engine.apply(own));
-  // Without a key, what the figure does not know is someone else's.
+  // Without a key, parameters unknown to the figure belong to others.
   const others = engine.apply(loose);
   problems.push(...others.filter(({ unknown }) => !unknown));
   const linked = own.length + loose.length > others.filter(({ unknown }) => unknown).length;

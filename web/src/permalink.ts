@@ -13,7 +13,7 @@ export type Parameters = [key: string, value: string][];
 
 const TAG: string = "epipole-figure";
 
-/** The key of a figure's parameters. */
+/** Returns the key of a figure's parameters. */
 export function keyOf(element: HTMLElement): string {
   const id = anchorOf(element);
   if (id) return id;
@@ -37,7 +37,7 @@ function pairsOf(search: string): Parameters {
   return [...new URLSearchParams(search)];
 }
 
-/** The parameters in the page's address: those with the figure's key, and those without any. */
+/** Returns the parameters in the page's address: those with the figure's key, and those without any. */
 export function parametersIn(
   search: string,
   element: HTMLElement,
@@ -52,7 +52,7 @@ export function parametersIn(
   };
 }
 
-/** The page's address with a figure's state, replacing the state in it. */
+/** Returns the page's address with a figure's state, replacing the state in it. */
 export function linkTo(
   element: HTMLElement,
   state: Parameters,
@@ -75,7 +75,7 @@ export function linkTo(
   );
 }
 
-/** As `encodeURIComponent`, but keeps positions such as `1.5,2` readable. */
+/** Encodes like `encodeURIComponent`, but keeps positions such as `1.5,2` readable. */
 function encode(text: string): string {
   return encodeURIComponent(text).replace(/%2C/g, ",");
 }

@@ -1,6 +1,6 @@
 /**
- * The reader's own photographs: chosen, dropped or taken with the camera, decoded and downscaled on
- * this device. They are never uploaded.
+ * Photographs of the reader: chosen, dropped or taken with the camera, decoded and downscaled on this device. They are
+ * never uploaded.
  */
 
 import type { PhotoSlot } from "./contract.js";
@@ -12,7 +12,7 @@ export interface Photo {
   width: number;
   height: number;
   rgba: Uint8Array;
-  /** Focal length in units of the longer side, if the file has one. */
+  /** Focal length in units of the longer side, if the file contains one. */
   focal?: number | undefined;
 }
 
@@ -21,7 +21,7 @@ export interface PhotoHooks {
   /** Passes one to the figure. Returns a message if it is rejected. */
   take: (slot: string, photo: Photo) => string | undefined;
   warn: (sentence: string) => void;
-  /** The inputs have a note to show. */
+  /** Called when the inputs have a note to show. */
   noted: () => void;
 }
 
@@ -31,7 +31,7 @@ interface Row {
   note: HTMLElement;
   /** Number of photographs chosen so far; results of all but the last are discarded. */
   chosen: number;
-  /** The original file of the photograph in the figure. */
+  /** Original file of the photograph in the figure. */
   file?: File | undefined;
 }
 
@@ -146,7 +146,7 @@ export class Photos {
     const [whole, now] = [`${width} × ${height}`, `${few} × ${low}`];
     const refused = this.#hooks.take(slot.id, { width: few, height: low, rgba, focal: focalOf(head, width, height) });
     if (refused !== undefined) {
-      // Name the original file and size. The figure's requirement is after the colon.
+      // Names the original file and size. The figure's requirement is after the colon.
       const wanted = refused.split(": it ").at(-1) ?? refused;
       const size = whole === now ? `${now} pixels` : `${whole} pixels, made smaller to ${now}`;
       this.#hooks.warn(`${file.name} has ${size}. This figure ${wanted}.`);
@@ -160,7 +160,7 @@ export class Photos {
   }
 }
 
-/** Size of a photograph downscaled to at most `most` pixels per side. */
+/** Returns the size of a photograph downscaled to at most `most` pixels per side. */
 function smaller({ width, height }: ImageBitmap, most: number): [width: number, height: number] {
   const scale = Math.min(1, most / Math.max(width, height));
   return [Math.max(1, Math.round(width * scale)), Math.max(1, Math.round(height * scale))];

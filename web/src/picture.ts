@@ -1,4 +1,4 @@
-/** The canvas and the parts on it. */
+/** The canvas and the elements over it. */
 
 import type { Direction, Snapshot } from "./contract.js";
 import { make, setAttribute } from "./dom.js";
@@ -8,7 +8,7 @@ import { MarkLayer } from "./marks.js";
 import { Pointers } from "./pointers.js";
 import { Zoom } from "./zoom.js";
 
-/** Actions of a reader in the picture. Places are CSS pixels of the layout. */
+/** Actions of a reader in the picture. Positions are CSS pixels of the layout. */
 export interface Hand {
   handleAt: (x: number, y: number) => string | undefined;
   drag: (id: string, x: number, y: number) => void;
@@ -22,9 +22,9 @@ export interface Hand {
 export type Place = [x: number, y: number];
 
 export class Picture {
-  /** The room that there is for the picture. */
+  /** Room for the picture. */
   readonly element = make("div", { class: "picture" });
-  /** The picture itself, which is narrower where the room is low. */
+  /** The picture itself, which is narrower if the room is low. */
   readonly sheet = make("div", { class: "sheet" });
   /** Temporary overlay at its lower edge. */
   readonly overlay = make("div", { class: "overlay" });
@@ -57,12 +57,12 @@ export class Picture {
     for (const part of [this.#zoom, this.#pointers, this.#lit, this.marks, this.#handles]) part.update(snapshot);
   }
 
-  /** Lights up what the book has this letter for, and nothing else; says whether the picture has it. */
+  /** Highlights only the mark of this symbol of the book. Returns whether the picture shows it. */
   light(symbol: string | undefined): boolean {
     return this.#lit.show(symbol, this.#snapshot);
   }
 
-  /** DOM element of a handle. */
+  /** Returns the element of a handle. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#handles.elementOf(id);
   }

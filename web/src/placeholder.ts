@@ -18,14 +18,14 @@ export class Placeholder {
 
   constructor(root: HTMLElement) {
     this.#root = root;
-    // The page has no inline styles, so the filled shares of its sliders are set here.
+    // The page has no inline styles, so the fill of its sliders is set here.
     for (const input of root.querySelectorAll<HTMLInputElement>("input[type=range]")) {
       const [value, min, max] = [input.value, input.min, input.max].map(Number) as [number, number, number];
       input.style.setProperty("--share", `${((100 * (value - min)) / (max - min || 1)).toFixed(2)}%`);
     }
   }
 
-  /** Element of the size of the picture. */
+  /** Element with the size of the picture. */
   get picture(): HTMLElement | null {
     return this.#root.querySelector<HTMLElement>(".picture");
   }
@@ -34,13 +34,13 @@ export class Placeholder {
     setAttribute(this.#root, "data-theme", theme);
   }
 
-  /** Takes the notices and the live region of the figure. */
+  /** Shows the notices and the live region of the figure. */
   lend({ speaker }: Shell): void {
     this.#root.querySelector(".sentences")?.replaceWith(speaker.home);
     this.#root.querySelector(".spoken")?.replaceWith(speaker.region);
   }
 
-  /** Shares its numbers with a figure that has yet to compute its own. */
+  /** Shows its numbers in a figure that has not computed its own yet. */
   lendNumbers(shell: Shell): void {
     shell.borrowNumbers(this.#root);
   }

@@ -1,4 +1,4 @@
-/** Mouse, pen, fingers and wheel on a picture. */
+/** Input by mouse, pen, fingers and wheel on a picture. */
 
 import type { Handle, Panel, Snapshot, Space } from "./contract.js";
 import { setAttribute } from "./dom.js";
@@ -7,16 +7,16 @@ import type { Hand, Place } from "./picture.js";
 import { Pinch } from "./pinch.js";
 import type { Zoom } from "./zoom.js";
 
-/** Distance at which a mouse or pen takes a handle, pixels; for fingers, the figure decides. */
+/** Distance at which a mouse or pen grabs a handle, pixels; for fingers, the figure decides. */
 const FINE_RADIUS = 14;
-/** Distance at which a finger takes the handle of a space, pixels; elsewhere it scrolls the page. */
+/** Distance at which a finger grabs the handle of a space, pixels; elsewhere it scrolls the page. */
 const FINGER_RADIUS = 22;
 /** Wheel delta of one notch, pixels. */
 const NOTCH = 100;
 /** Maximum movement of a tap, pixels. */
 const TAP_SLOP = 10;
 
-/** The picture, as pointers need it. */
+/** The picture, as needed by pointers. */
 export interface Surface {
   element: HTMLElement;
   sheet: HTMLElement;
@@ -60,7 +60,7 @@ export class Pointers {
     stage.addEventListener("pointerup", (event) => this.#onUp(event, true));
     stage.addEventListener("pointercancel", (event) => this.#onUp(event, false));
     stage.addEventListener("lostpointercapture", (event) => this.#onUp(event, false));
-    // A finger that starts on a handle must not scroll the page; anywhere else it may.
+    // A finger that starts on a handle must not scroll the page.
     stage.addEventListener(
       "touchstart",
       (event) => {
@@ -70,7 +70,7 @@ export class Pointers {
           (touch && event.touches.length === 1 && this.#take(this.#placeOf(touch), "touch"));
         if (!taken) return;
         event.preventDefault();
-        // A finger that holds something does not swipe the page away.
+        // A finger that drags must not swipe the page away.
         event.stopPropagation();
       },
       { passive: false },
@@ -84,7 +84,7 @@ export class Pointers {
     stage.addEventListener("wheel", (event) => this.#onWheel(event), { passive: false });
   }
 
-  /** With Ctrl or ⌘, which is also what two fingers on a touchpad send; alone it scrolls the page. */
+  /** Zooms with Ctrl or ⌘, which a two-finger pinch on a touchpad also sends; the wheel alone scrolls the page. */
   #onWheel(event: WheelEvent): void {
     if (!(event.ctrlKey || event.metaKey)) return;
     const space = this.#spaceAt(this.#placeOf(event));
@@ -94,7 +94,7 @@ export class Pointers {
     this.#surface.zoom.by(space, ZOOM_STEP ** (-event.deltaY * lines));
   }
 
-  /** CSS pixels to a pixel of the layout. */
+  /** Size of a layout pixel, CSS pixels. */
   get #scale(): number {
     return this.#surface.sheet.clientWidth / (this.#snapshot?.layout.width || 1);
   }
@@ -108,7 +108,7 @@ export class Pointers {
   }
 
   #placeOf({ clientX, clientY }: { clientX: number; clientY: number }): Place {
-    // The poster, where that is still shown, has the same place.
+    // The poster, if still shown, has the same position.
     const box = this.#surface.sheet.getBoundingClientRect();
     const { width, height } = this.#snapshot?.layout ?? { width: 0, height: 0 };
     return [
@@ -117,7 +117,7 @@ export class Pointers {
     ];
   }
 
-  /** Returns the handle that a pointer at a place takes. */
+  /** Returns the handle that a pointer at a position grabs. */
   #take([x, y]: Place, pointerType: string): Handle | undefined {
     const id = this.#hand.handleAt(x, y);
     const handle = this.#snapshot?.handles.find((known) => known.id === id);
@@ -128,7 +128,7 @@ export class Pointers {
     return pointerType === "touch" || distance <= FINE_RADIUS ? handle : undefined;
   }
 
-  /** Returns the handle that a mouse or pen takes anywhere in a space; with Shift, the one that moves it. */
+  /** Returns the handle that a mouse or pen grabs anywhere in a space; with Shift, the one that pans it. */
   #takeSpace(place: Place, event: PointerEvent): Handle | undefined {
     const space = event.pointerType === "touch" ? undefined : this.#spaceAt(place);
     const id = event.shiftKey ? space?.pan : space?.orbit;
@@ -144,14 +144,14 @@ export class Pointers {
 
   #onDown(event: PointerEvent): void {
     if (!event.isPrimary || event.button !== 0) return;
-    // Lists and labels that lie on the picture are no part of it.
+    // Lists and labels over the picture do not belong to it.
     const { target } = event;
     if (target instanceof Node && this.#surface.covers.some((cover) => cover.contains(target))) return;
     const place = this.#placeOf(event);
     let handle = this.#take(place, event.pointerType) ?? this.#takeSpace(place, event);
     if (!handle && this.#panelAt(place)) {
       if (event.pointerType === "touch") {
-        // It may become a scroll; whether it was a tap shows when the finger leaves.
+        // It may become a scroll, so a tap is recognized only when the finger leaves.
         this.#pressing = { pointer: event.pointerId, place };
         return;
       }
@@ -185,7 +185,7 @@ export class Pointers {
     setAttribute(this.#surface.element, "data-over", over);
   }
 
-  /** Ends the drag of one finger, because a second one has come. */
+  /** Ends the drag of one finger when a second one arrives. */
   #letGo(): void {
     this.#dragging = this.#pressing = undefined;
     setAttribute(this.#surface.element, "data-dragging", false);

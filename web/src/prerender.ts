@@ -17,13 +17,10 @@ export interface Wanted {
 
 /** Parts that are operable in a running figure. */
 const OPERATED = ".toolbar, .under, .inputs, .folds, .challenges";
-/** Parts that only a running figure has. */
+/** Parts that exist only in a running figure. */
 const ALIVE = ".marks, .overlay, .chooser, canvas, .photos, .link";
 
-/**
- * Content of `<template shadowrootmode="open">`, with `{{figure.css}}` as the style sheet's
- * address.
- */
+/** Returns the content of `<template shadowrootmode="open">`, with `{{figure.css}}` as the style sheet's address. */
 export function prerender({ title, help, snapshot, attributes, sizes = [] }: Wanted): string {
   const nothing = () => undefined;
   const hand = { handleAt: nothing, drag: nothing, nudge: nothing, moveToEnd: nothing, remove: nothing, click: nothing, set: nothing };

@@ -3,7 +3,7 @@
 import type { Control } from "./contract.js";
 import type { Parameters } from "./permalink.js";
 
-/** Members of the element that its properties use. */
+/** Members of the element used by its properties. */
 export interface Host extends HTMLElement {
   readonly controlValue: (id: string) => number | boolean | string | undefined;
   apply: (parameters: Record<string, string | number | boolean>) => void;

@@ -3,9 +3,9 @@
 import type { Readout } from "./contract.js";
 import { fold, make, setText } from "./dom.js";
 
-/** Texts with more characters take two columns, in a smaller font. */
+/** Number of characters above which a text takes two columns, in a smaller font. */
 const LONG = 11;
-/** Texts with more characters take a second line. */
+/** Number of characters above which a text takes a second line. */
 const TWO_LINES = 34;
 
 export class Readouts {
@@ -29,16 +29,16 @@ export class Readouts {
       const value = this.#values.get(id);
       if (!value) continue;
       setText(value, text);
-      // Cells never shrink, so that nothing moves while values change.
+      // Cells never shrink, to avoid layout shifts while values change.
       const cell = value.parentElement?.classList;
       if (text.length > LONG) cell?.add("long");
       if (text.length > TWO_LINES) cell?.add("two-lines");
     }
   }
 
-  /** Shows a stand-in's readouts until the next update. */
+  /** Shows the readouts of a stand-in until the next update. */
   borrow(tree: ParentNode): void {
-    // Clone them: the stand-in is still visible.
+    // Cloned, since the stand-in is still visible.
     const cells = (part: string) =>
       [...tree.querySelectorAll(`${part} [data-readout]`)].map((cell) => cell.cloneNode(true));
     this.main.replaceChildren(...cells(".readouts.main"));
@@ -48,7 +48,7 @@ export class Readouts {
     this.#ids = "borrowed";
   }
 
-  /** The element of a readout. */
+  /** Returns the element of a readout. */
   elementOf(id: string): HTMLElement | undefined {
     return this.#values.get(id)?.parentElement ?? undefined;
   }
@@ -69,7 +69,7 @@ export class Readouts {
   }
 }
 
-/** Ids of the main readouts; of the first two if the figure marks none. */
+/** Returns the ids of the main readouts; of the first two if the figure marks none. */
 function mainOf(readouts: Readout[]): Set<string> {
   const said = readouts.filter(({ main }) => main);
   return new Set((said.length > 0 ? said : readouts.slice(0, 2)).map(({ id }) => id));

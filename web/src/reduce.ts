@@ -1,6 +1,6 @@
 /**
- * Downscales photographs by area averaging. Browsers' own downscaling differs by up to 15 gray
- * levels per pixel for equal input, so a figure's results would differ between browsers.
+ * Downscales photographs by area averaging. Browsers' own downscaling differs by up to 15 gray levels per pixel for
+ * equal input, so a figure's results would differ between browsers.
  */
 
 import { make } from "./dom.js";
@@ -15,8 +15,8 @@ interface Cover {
 }
 
 /**
- * Averages the photograph to `width` × `height` RGBA pixels. Returns `undefined` when no longer
- * `wanted`, or without a canvas context for lack of memory.
+ * Averages the photograph to `width` × `height` RGBA pixels. Returns `undefined` when no longer `wanted`, or if there
+ * is not enough memory for a canvas context.
  */
 export async function reduced(
   photograph: ImageBitmap,
@@ -56,10 +56,7 @@ export async function reduced(
   return rgba;
 }
 
-/**
- * Source pixels covered by each of `few` equal parts of a line of `many`. Weights of a part sum to
- * 1.
- */
+/** Returns the source pixels covered by each of `few` equal parts of a line of `many`. Weights of a part sum to 1. */
 function covers(many: number, few: number): Cover[] {
   return Array.from({ length: few }, (_, part) => {
     const [from, to] = [(part * many) / few, ((part + 1) * many) / few];

@@ -24,7 +24,7 @@ export interface RendererCallbacks {
   dispatch: (event: DrawEvent) => void;
   /** Presents the canvas, if it was `painted`, and the snapshot, if it is new. */
   present: (snapshot: Snapshot | undefined, painted: boolean) => void;
-  /** Tells why the figure refused something. */
+  /** Reports why the figure refused a change. */
   refused: (sentence: string) => void;
   /** Called once; a renderer whose module has panicked does nothing more. */
   panicked: (message: string) => void;
@@ -33,7 +33,7 @@ export interface RendererCallbacks {
 export class Renderer {
   readonly #canvas: HTMLCanvasElement;
   readonly #callbacks: RendererCallbacks;
-  /** Undefined after the end. */
+  /** Engine; undefined after the end. */
   #engine: Engine | undefined;
   #theme: Theme = "light";
   #width = 0;
@@ -41,9 +41,9 @@ export class Renderer {
   #shown = 0;
   /** Device pixels per CSS pixel at the last drawing. */
   #density = 0;
-  /** State or layout are newer than the last snapshot. */
+  /** Whether state or layout are newer than the last snapshot. */
   #outdated = true;
-  /** An animation controls the time of the figure. */
+  /** Whether an animation controls the figure's clock. */
   #frozen = false;
   #lastTick: number | undefined;
   #frame = 0;
@@ -61,20 +61,20 @@ export class Renderer {
     return this.#width;
   }
 
-  /** Changes the figure and tells why it refuses. */
+  /** Changes the figure, and reports a refusal. */
   act(work: (engine: Engine) => string | undefined): void {
     const refused = this.move(work);
     if (refused !== undefined) this.#callbacks.refused(refused);
   }
 
-  /** Puts parameters on top of the state; returns those that could not be used. */
+  /** Applies parameters on top of the state; returns those that could not be used. */
   apply(parameters: Parameters): Refused[] {
     let problems: Refused[] = [];
     this.move((engine) => void (problems = engine.apply(parameters)));
     return problems;
   }
 
-  /** Changes the figure; returns why it refuses. */
+  /** Changes the figure; returns the reason for a refusal. */
   move(work: (engine: Engine) => string | undefined): string | undefined {
     const refused = this.ask(work);
     this.#outdated = true;
@@ -82,7 +82,7 @@ export class Renderer {
     return refused;
   }
 
-  /** Hands a result to the figure; a poster that shows it already stays. */
+  /** Passes a result to the figure; a poster that already shows it stays. */
   learn(work: (engine: Engine) => void): void {
     this.ask(work);
     this.#outdated = true;
@@ -103,7 +103,10 @@ export class Renderer {
     }
   }
 
-  /** Sets the room of the picture, its width on the page and, unless the room decides, its layout width; CSS pixels. */
+  /**
+   * Sets the room of the picture, its width on the page and, unless determined by the room, its layout width; CSS
+   * pixels.
+   */
   resize(room: number, shown: number, fitted?: number): void {
     const width = room < 1 ? 0 : (fitted ?? layoutWidth(room));
     const size = Math.min(shown || room, room);
@@ -115,13 +118,13 @@ export class Renderer {
     this.#dispatch({ type: "resized", room: width > 0, relayout });
   }
 
-  /** Stops or resumes the clock of the figure. */
+  /** Stops or resumes the figure's clock. */
   freeze(frozen: boolean): void {
     this.#frozen = frozen;
     this.#lastTick = undefined;
   }
 
-  /** Takes new colors or a new density of pixels. */
+  /** Applies new colors or a new pixel density. */
   recolor(theme: Theme): void {
     this.#theme = theme;
     this.#dispatch({ type: "recolored" });
@@ -132,18 +135,18 @@ export class Renderer {
     this.#dispatch({ type: "flush" });
   }
 
-  /** Presents changes now, and draws them unless the first picture has still to be prepared. */
+  /** Presents changes now, and draws them unless the first picture is still being prepared. */
   show(): void {
-    // No frames come in a hidden page.
+    // A hidden page gets no frames.
     this.#dispatch({ type: "show", hidden: document.hidden });
   }
 
-  /** Refines all that is left, in slices. */
+  /** Completes the refinement, in slices. */
   async sharpen(): Promise<void> {
     while (this.#refine(performance.now() + SLICE_MS).more) await new Promise((resolve) => setTimeout(resolve));
   }
 
-  /** The picture at full quality on a canvas of its own: at once after `sharpen`. */
+  /** Returns the picture at full quality on a separate canvas; immediate after `sharpen`. */
   portrait(scale: number, theme: Theme = this.#theme): HTMLCanvasElement | undefined {
     if (this.#width === 0) return undefined;
     const canvas = document.createElement("canvas");
@@ -155,7 +158,7 @@ export class Renderer {
   /** Draws the figure for print: sharp, dark on light, until it is recolored. */
   prepareForPrint(): void {
     if (this.#width === 0) return;
-    // Long computations are not waited for.
+    // Does not wait for long computations.
     const settled = this.ask((engine) => engine.job()) === undefined;
     this.ask((engine) => engine.draw(this.#canvas, this.#width, 2, "light", settled));
   }
@@ -208,7 +211,7 @@ export class Renderer {
   #onFrame(now: number): void {
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    // The room may have gone since the frame was requested.
+    // The room may have disappeared since the frame was requested.
     if (this.#width === 0) return;
     if (this.#callbacks.state().phase === "preparing") {
       const start = performance.now();
@@ -221,7 +224,7 @@ export class Renderer {
     this.#dispatch({ type: "frame", now, running, ticked: running && this.#tick(now) });
   }
 
-  /** Lets time pass in an animated figure; returns whether it did. */
+  /** Advances the time of an animated figure; returns whether it did. */
   #tick(now: number): boolean {
     this.#lastTick ??= now;
     const passed = now - this.#lastTick;
@@ -250,14 +253,14 @@ export class Renderer {
     if (this.#engine) this.#callbacks.present(snapshot, painted);
   }
 
-  /** Prepares the first picture until some time; returns whether it is prepared. */
+  /** Prepares the first picture until a given time; returns whether it is prepared. */
   #prepare(end: number): boolean {
     let more = true;
     while (more && performance.now() < end) more = this.ask((engine) => engine.prepare()) === true;
     return !more;
   }
 
-  /** Refines the view until some time. */
+  /** Refines the view until a given time. */
   #refine(end: number): { better: boolean; more: boolean } {
     let [better, more] = [false, true];
     while (more && performance.now() < end) {
@@ -267,7 +270,7 @@ export class Renderer {
     return { better, more };
   }
 
-  /** Prepares and refines the first picture in idle time, so that nobody has to wait for it. */
+  /** Prepares and refines the first picture in idle time, so that the reader need not wait for it. */
   #warm(): void {
     if (this.#cancelIdle) return;
     const slice = (deadline?: IdleDeadline) => {
@@ -292,7 +295,7 @@ export class Renderer {
     this.#cancelIdle = () => cancelIdleCallback(request);
   }
 
-  /** Stops the animation clock, and idle work: pending callbacks would keep a removed figure in memory. */
+  /** Stops the animation clock and idle work, since pending callbacks would keep a removed figure in memory. */
   #pause(): void {
     this.#lastTick = undefined;
     this.#cancelIdle?.();

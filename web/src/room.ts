@@ -1,29 +1,26 @@
 /** Layout widths and drawing scale of pictures. */
 
-/**
- * Layout widths (`WIDTHS` of `epipole-widgets`), each with the room below which it applies, CSS
- * pixels.
- */
+/** Layout widths (`WIDTHS` of `epipole-widgets`), each with the room below which it applies, CSS pixels. */
 const CLASSES: readonly (readonly [below: number, width: number])[] = [
   [500, 360],
   [860, 720],
   [Infinity, 1088],
 ];
 
-/** Maximum of drawn device pixels per CSS pixel; more cost time without a visible gain. */
+/** Maximum number of drawn device pixels per CSS pixel; more would cost time without a visible gain. */
 const DENSEST = 2;
-/** Minimum of drawn pixels per layout pixel; with fewer, lines break up. */
+/** Minimum number of drawn pixels per layout pixel; with fewer, lines break up. */
 const COARSEST = 0.5;
 
 /**
- * Layout width of a picture for some available width; the picture is then scaled to fit. Posters
- * are rendered at the same few widths, so that a running figure has exactly its poster's shape.
+ * Returns the layout width of a picture for the available width; the picture is then scaled to fit. Posters are
+ * rendered at the same few widths, so that a running figure has exactly its poster's shape.
  */
 export function layoutWidth(room: number): number {
   return CLASSES.find(([below]) => room < below)?.[1] ?? 0;
 }
 
-/** Device pixels per layout pixel for a picture displayed `shown` CSS pixels wide. */
+/** Returns the device pixels per layout pixel for a picture displayed `shown` CSS pixels wide. */
 export function drawScale(shown: number, width: number, density: number): number {
   const fit = shown / width;
   const scale = Math.min(fit * Math.min(Math.max(density, 1), DENSEST), Math.max(DENSEST, fit));
@@ -39,8 +36,8 @@ export interface Size {
 const LEGIBLE = 0.8;
 
 /**
- * Layout for a picture that must fit both width and height: the widest one that is still legible,
- * else the one displayed at the largest scale. Also returns its displayed size.
+ * Returns the layout for a picture that must fit both width and height, with its displayed size: the widest one that is
+ * still legible, else the one displayed at the largest scale.
  */
 export function shownIn(room: Size, sizes: Size[]): { width: number; shown: Size } {
   const ways = sizes.map((size) => ({ size, scale: Math.min(room.width / size.width, room.height / size.height) }));

@@ -1,11 +1,11 @@
-/** Saved state of a figure, as a host page stores it: parameters and reached goals. */
+/** Saved state of a figure, as stored by a host page: parameters and reached goals. */
 
 /** Current version of the format. */
 const VERSION = 1;
 
 export interface Saved {
   v: number;
-  /** The figure's name. */
+  /** Name of the figure. */
   figure: string;
   /** Parameters that differ from their defaults. */
   state: Record<string, string>;
@@ -17,10 +17,7 @@ export function toSaved(figure: string, state: Record<string, string>, solved: s
   return { v: VERSION, figure, state, solved };
 }
 
-/**
- * Reads a saved state, as an object or JSON text. Nothing for empty input; a message if it is
- * invalid.
- */
+/** Reads a saved state, as an object or JSON text. Undefined for empty input; a message if it is invalid. */
 export function readSaved(kept: unknown, figure: string): Saved | string | undefined {
   let value = kept;
   if (typeof kept === "string" && kept.trim() !== "") {

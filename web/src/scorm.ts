@@ -4,7 +4,7 @@
  * specifies; without it, the figure works but nothing is stored.
  */
 
-// Next to this script in the package.
+// In the package, the file is beside this script.
 import "./index.js";
 import type { EpipoleFigure } from "./element.js";
 import { readSaved } from "./saved.js";

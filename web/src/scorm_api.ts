@@ -1,6 +1,6 @@
 /**
- * The API that a learning platform offers to SCORM 1.2 packages, in a parent frame or the window
- * that opened the package.
+ * The API that a learning platform provides to SCORM 1.2 packages, in a parent frame or the window that opened the
+ * package.
  */
 
 /** All values are strings, with "true" or "false" for success. */
@@ -33,15 +33,15 @@ function search(from: Window): Api | undefined {
   return undefined;
 }
 
-/** The initialized API; nothing without a platform. */
+/** Returns the initialized API; undefined without a platform. */
 export function findApi(): Api | undefined {
   const api = search(window) ?? (window.opener ? search(window.opener as Window) : undefined);
   return api && api.LMSInitialize("") !== "false" ? api : undefined;
 }
 
 /**
- * Stores a state and the fraction reached, 0 to 1, if there is something to reach. Returns false if
- * the state is longer than the standard allows; the score is stored then, too.
+ * Stores a state and, if there are goals, the fraction reached, 0 to 1. Returns false if the state is longer than the
+ * standard allows; the score is stored even then.
  */
 export function record(api: Api, state: unknown, reached: number | undefined): boolean {
   const text = JSON.stringify(state);
@@ -57,7 +57,7 @@ export function record(api: Api, state: unknown, reached: number | undefined): b
   return fits;
 }
 
-/** Ends the visit when the page is left, once; `keep` stores what is not stored yet. */
+/** Ends the visit once, when the page is left; `keep` stores unsaved state. */
 export function finishOnLeave(api: Api, keep: () => void): void {
   let finished = false;
   addEventListener("pagehide", () => {

@@ -1,6 +1,6 @@
 /**
- * Script of a chapter in a SCORM 1.2 package: hands what its page says in SPLICE messages to the
- * learning platform. Without a platform, the chapter works but nothing is stored.
+ * Script of a chapter in a SCORM 1.2 package: forwards the page's SPLICE messages to the learning platform. Without a
+ * platform, the chapter works but nothing is stored.
  */
 
 import { findApi, finishOnLeave, record } from "./scorm_api.js";
@@ -17,8 +17,8 @@ if (api) {
     const answer = { subject: "SPLICE.getState.response", message_id: message["message_id"], state };
     frame.contentWindow?.postMessage(answer, "*");
   });
-  // The page reports at once.
+  // The page reports immediately, so nothing is left to store.
   finishOnLeave(api, () => undefined);
 }
-// Not before this page listens.
+// Only now, since this page must listen first.
 frame.src = frame.dataset["src"]!;

@@ -4,7 +4,7 @@ import text from "epipole-look" with { type: "text" };
 
 let shared: CSSStyleSheet | undefined;
 
-/** The style sheet, shared by all figures of a page. */
+/** Returns the style sheet, shared by all figures of a page. */
 export function sheet(): CSSStyleSheet {
   if (!shared) {
     shared = new CSSStyleSheet();

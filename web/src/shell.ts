@@ -1,4 +1,4 @@
-/** The shadow tree of a figure, built from snapshots alone. */
+/** The shadow tree of a figure, built only from snapshots. */
 
 import { Challenges, type Goal } from "./challenges.js";
 import { Compact } from "./compact.js";
@@ -60,7 +60,7 @@ export class Shell {
   #marked: ReturnType<typeof setTimeout> | undefined;
   /** Whether the figure waits for a computation. */
   #waiting = false;
-  /** The figure is to show photographs that have still to be chosen. */
+  /** Whether the figure needs photographs that have not been chosen yet. */
   #wantsPhotos = false;
 
   constructor(acts: Acts, choice: Choice) {
@@ -76,7 +76,7 @@ export class Shell {
       warn: (sentence) => this.speaker.warn([sentence], true),
       noted: () => this.#toolbar.openPhotos(this.photos.element, true),
     });
-    // Reserve its room from the start, so that nothing moves when the figure starts.
+    // Reserves its space from the start, to avoid a layout shift when the figure starts.
     this.#toolbar.element.classList.add("later");
     this.#under = make("div", { class: "under", hidden: true });
     this.#folds = make("div", { class: "folds" }, this.#controls.more, this.#readouts.others);
@@ -105,10 +105,9 @@ export class Shell {
     setAttribute(this.root, "data-theme", theme);
   }
 
-  /** Arranges the parts below each other, as in the normal (not compact) layout. */
+  /** Arranges the parts in a column, as in the normal (not compact) layout. */
   #spread(): void {
-    // In this order nothing moves while the page loads: the title fills the rest of the toolbar's
-    // row.
+    // In this order nothing shifts while the page loads: the title fills the rest of the toolbar's row.
     this.#head.append(this.#toolbar.element, this.#title);
     this.#body.before(this.#toolbar.link, this.photos.element);
     this.#under.append(this.#controls.buttons);
@@ -117,9 +116,7 @@ export class Shell {
     this.root.append(this.#caption);
   }
 
-  /**
-   * Whether picture, main buttons and readouts share the host's height, with the rest in a drawer.
-   */
+  /** Whether picture, main buttons and readouts share the host's height, with the rest in a drawer. */
   set compact(wanted: boolean) {
     if (wanted === (this.#compact !== undefined)) return;
     this.#compact?.drawer.remove();
@@ -150,18 +147,18 @@ export class Shell {
     setText(this.#help, help);
   }
 
-  /** Sets which controls, readouts and goals to show from the next update on. */
+  /** Sets the controls, readouts and goals to show from the next update on. */
   choose(choice: Choice): void {
     this.#choice = choice;
     this.#controls.clear();
   }
 
-  /** Messages about unknown names in the choice. */
+  /** Returns messages about unknown names in the choice. */
   misnamed(snapshot: Snapshot): string[] {
     return misnamed(this.#choice, snapshot);
   }
 
-  /** Shows the readouts of a stand-in, which are those of the finished figure. */
+  /** Shows the readouts of a stand-in, which equal those of the finished figure. */
   borrowNumbers(tree: ParentNode): void {
     this.#readouts.borrow(tree);
     this.#borrowed = tree;
@@ -209,7 +206,7 @@ export class Shell {
     this.#compact?.bar.classList.remove("later");
   }
 
-  /** Takes back the elements that a stand-in borrowed. */
+  /** Takes back the elements borrowed by a stand-in. */
   settle(): void {
     this.root.querySelector(".head")?.after(this.speaker.home);
     this.#help.after(this.speaker.region);
@@ -220,7 +217,7 @@ export class Shell {
     this.#challenges.playing = challenge;
   }
 
-  /** All goals, with whether the reader has reached each. */
+  /** Goals, with whether the reader has reached each. */
   get goals(): Goal[] {
     return this.#challenges.goals;
   }
@@ -230,7 +227,7 @@ export class Shell {
     this.#challenges.recall(ids);
   }
 
-  /** Marks for a moment the values that differ between two snapshots. */
+  /** Briefly marks the values that differ between two snapshots. */
   markChanges(before: Snapshot, now: Snapshot): void {
     const words = (snapshot: Snapshot) => [
       ...snapshot.controls.map((control) => ["control", control.id, control.value_text] as const),
@@ -273,8 +270,8 @@ export class Shell {
   }
 
   /**
-   * Keeps key presses in a figure from the page's shortcuts. Tab and combinations with Ctrl, Alt or
-   * ⌘ pass; Escape returns focus to the page.
+   * Keeps key presses in a figure from triggering the page's shortcuts. Tab and combinations with Ctrl, Alt or ⌘ pass;
+   * Escape returns focus to the page.
    */
   #keep(event: KeyboardEvent): void {
     if (event.key === "Tab" || event.ctrlKey || event.altKey || event.metaKey) return;

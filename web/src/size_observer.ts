@@ -1,14 +1,14 @@
-/** Size of the picture: observes the room for it, and has it drawn for that. */
+/** Size of the picture: observes the room for it, and resizes it to fit. */
 
 import { WIDTHS } from "./room.js";
 import type { Renderer } from "./renderer.js";
 import type { Shell } from "./shell.js";
 
-/** The parts to observe and to resize. */
+/** Parts to observe and to resize. */
 export interface Measured {
   shell: Shell;
   renderer: Renderer | undefined;
-  /** The poster, in place of the picture. */
+  /** Poster, in place of the picture. */
   standing: Element | undefined;
 }
 
@@ -22,7 +22,7 @@ export class SizeObserver {
   /** Layout width in a compact figure. */
   #fitted: number | undefined;
 
-  /** `now` returns the present parts of the element. */
+  /** Creates an observer; `now` returns the current parts of the element. */
   constructor(host: HTMLElement & { readonly compact: boolean }, now: () => Measured) {
     this.#host = host;
     this.#now = now;
@@ -35,7 +35,7 @@ export class SizeObserver {
 
   /** Starts observing. */
   start(): void {
-    // Sizes are remembered from the observer, because reading them forces a layout.
+    // Sizes are taken from the observer, because reading them would force a layout.
     this.#observer = new ResizeObserver((entries) => this.#onResize(entries));
     this.observe();
   }
@@ -44,7 +44,7 @@ export class SizeObserver {
     this.#observer?.disconnect();
   }
 
-  /** Observes the present parts. */
+  /** Observes the current parts. */
   observe(): void {
     const [host, { shell, standing }] = [this.#host, this.#now()];
     this.#observer?.disconnect();
@@ -54,7 +54,7 @@ export class SizeObserver {
       this.#observer?.observe(shell.picture.element);
       const { sheet } = shell.picture;
       try {
-        // Fires when the density of pixels changes, too.
+        // Also fires when the pixel density changes.
         this.#observer?.observe(sheet, { box: "device-pixel-content-box" });
       } catch {
         this.#observer?.observe(sheet);
@@ -68,7 +68,7 @@ export class SizeObserver {
     this.observe();
   }
 
-  /** Finds the layout width of a compact figure, and resizes the picture. */
+  /** Determines the layout width of a compact figure, and resizes the picture. */
   fit(): void {
     const [host, { shell, renderer }] = [this.#host, this.#now()];
     const look = (width: number) => renderer?.ask((engine) => engine.snapshot(width).layout);

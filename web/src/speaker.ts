@@ -8,12 +8,9 @@ const REST_MS = 300;
 export class Speaker {
   /** The figure's only live region. */
   readonly region = make("p", { class: "spoken", role: "status", "aria-live": "polite" });
-  /** Visible problem messages; the live region announces them as well. */
+  /** Visible error messages; the live region announces them as well. */
   readonly notice = make("div", { class: "notice", hidden: true });
-  /**
-   * Parent of passing notices: an overlay, so that nothing moves. Lasting ones are above the
-   * picture.
-   */
+  /** Parent of transient notices: an overlay, to avoid layout shifts. Lasting ones are above the picture. */
   readonly #passingHome: HTMLElement;
   readonly home = make("div", { class: "sentences" });
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -33,7 +30,7 @@ export class Speaker {
     this.#later();
   }
 
-  /** Shows and announces messages; passing ones disappear with the figure's next state. */
+  /** Shows and announces messages; transient ones disappear with the figure's next state. */
   warn(sentences: string[], passing = false): void {
     this.#passing = passing ? 2 : 0;
     const home = passing ? this.#passingHome : this.home;
@@ -68,9 +65,9 @@ export class Speaker {
     this.#later();
   }
 
-  /** Notes that the figure has taken a new state. */
+  /** Notes that the figure has a new state. */
   moveOn(): void {
-    // The first state is still the one that raised the notice.
+    // The first state is still the one that caused the notice.
     if (this.#passing > 0 && --this.#passing === 0) this.notice.hidden = true;
   }
 

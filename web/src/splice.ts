@@ -4,14 +4,14 @@
 
 let count = 0;
 
-/** A unique id. `crypto.randomUUID` is missing on pages served without https. */
+/** Returns a unique id. `crypto.randomUUID` is missing on pages served without https. */
 export function messageId(): string {
   count += 1;
   return `epipole-${Date.now().toString(36)}-${Math.random().toString(36).slice(2)}-${count}`;
 }
 
 export function post(message: unknown): void {
-  // The origin of the parent is unknown, and the messages contain nothing private.
+  // The origin of the parent is unknown, and the messages contain no private data.
   parent.postMessage(message, "*");
 }
 
@@ -22,20 +22,20 @@ export function tell(subject: string, more: object): string {
   return message_id;
 }
 
-/** Answers to a host page. */
+/** Callbacks for a host page. */
 export interface Answers {
-  /** Takes the state that the host has stored; it has none where it answers with an error. */
+  /** Receives the state stored by the host; without one if the host answers with an error. */
   restore: (state: unknown) => void;
-  /** Reports at once; returns whether there was something to report. */
+  /** Reports immediately; returns whether there was anything to report. */
   flush: () => boolean;
 }
 
 /**
- * Asks the host page, the direct parent, for the stored state, and answers when it wants reports.
- * Returns a function that ends it.
+ * Asks the host page, the direct parent, for the stored state, and answers its requests for reports. Returns a function
+ * that stops it.
  */
 export function answerHost({ restore, flush }: Answers): () => void {
-  /** Id of the request that is still open. */
+  /** Id of the pending request. */
   let asked: string | undefined;
   const onMessage = ({ source, data }: MessageEvent) => {
     const message = source === parent ? recordOf(data) : undefined;
@@ -53,7 +53,7 @@ export function answerHost({ restore, flush }: Answers): () => void {
   return () => removeEventListener("message", onMessage);
 }
 
-/** A message as an object; it may arrive as JSON text. */
+/** Returns a message as an object; it may arrive as JSON text. */
 export function recordOf(data: unknown): Record<string, unknown> | undefined {
   let value = data;
   if (typeof data === "string") {

@@ -17,8 +17,8 @@ export function wantsStillness(): boolean {
 }
 
 /**
- * Theme for a figure: its `theme` attribute; else high contrast if the reader wants it; else the
- * nearest `data-theme`, else its `color-scheme`, else light or dark by the background behind it.
+ * Returns the theme for a figure: its `theme` attribute; else high contrast if the reader wants it; else the nearest
+ * `data-theme`, else its `color-scheme`, else light or dark by the background behind it.
  */
 function themeOf(element: HTMLElement): Theme {
   const wish = element.getAttribute("theme");
@@ -54,7 +54,7 @@ export function askTheme(element: HTMLElement, tell: (theme: Theme) => void): vo
   asking.set(element, tell);
 }
 
-/** An element and its ancestors, through shadow roots and slots. */
+/** Iterates over an element and its ancestors, through shadow roots and slots. */
 function* outwards(element: HTMLElement): Generator<HTMLElement> {
   for (let at: Node | null = element; at; at = outside(at)) if (at instanceof HTMLElement) yield at;
 }
@@ -76,8 +76,8 @@ function behindIsDark(element: HTMLElement): boolean {
 }
 
 /**
- * Delay after which themes are read again once a short color transition of the page has ended,
- * milliseconds; longer ones are noticed by `transitionend`.
+ * Delay after which themes are read again, once a short color transition of the page has ended, milliseconds; longer
+ * ones are noticed by `transitionend`.
  */
 const BLEND_MS = 400;
 
@@ -90,7 +90,7 @@ const page = {
   lists: [] as MediaQueryList[],
   blended: undefined as ReturnType<typeof setTimeout> | undefined,
 
-  /** Observes all attributes and style sheets, as pages switch themes in different ways. */
+  /** Observes all attributes and style sheets, since pages switch themes in different ways. */
   watch(): void {
     this.observer = new MutationObserver(changed);
     const attributes = { attributes: true };

@@ -1,7 +1,4 @@
-/**
- * Toolbar of a figure: reset, copy the link, save the picture, full screen, and photographs of the
- * reader's own.
- */
+/** Toolbar of a figure: reset, link, picture, full screen, and photographs of the reader. */
 
 import type { FileOffer } from "./contract.js";
 import { icon, make, setAttribute, setText } from "./dom.js";

@@ -16,7 +16,7 @@ export class View {
   #placeholder: Placeholder | undefined;
   #theme: Theme = "light";
 
-  /** `acts` makes the actions of a tree, which may ask whether the tree is current. */
+  /** Creates a view; `acts` creates the actions of a tree, which may ask whether the tree is current. */
   constructor(host: CompactElement, acts: (isCurrent: () => boolean) => Acts) {
     this.#host = host;
     this.#acts = acts;
@@ -46,22 +46,22 @@ export class View {
     if (this.#placeholder) this.#placeholder.theme = theme;
   }
 
-  /** Takes the role that the place in the document gives. */
+  /** Sets the role according to the position in the document. */
   connect(): void {
     this.#shell.role = this.#host.closest("figure") ? "group" : "figure";
   }
 
-  /** Takes the layout that the attribute `compact` asks for. */
+  /** Applies the layout of the attribute `compact`. */
   squeeze(): void {
     this.#shell.compact = this.#host.compact;
   }
 
-  /** Takes the choice of controls, readouts and goals that the attributes name. */
+  /** Applies the selection of controls, readouts and goals by the attributes. */
   choose(): void {
     this.#shell.choose(choiceOf((name) => this.#host.getAttribute(name)));
   }
 
-  /** Puts the tree of another figure in place of this one. */
+  /** Replaces this tree by that of another figure. */
   replace(): void {
     this.#placeholder = undefined;
     this.#shell = this.#makeShell();
@@ -70,7 +70,7 @@ export class View {
     this.root.replaceChildren(this.#shell.root);
   }
 
-  /** Shows the tree of the figure, which can be operated now; returns whether it replaces a placeholder. */
+  /** Shows the tree of the figure, which can now be operated; returns whether it replaces a placeholder. */
   reveal(): boolean {
     this.#shell.reveal();
     const placeholder = this.#placeholder;

@@ -37,9 +37,7 @@ export function watchVisibility(element: Element, callbacks: { near: Seen; seen:
 
 let calm: Promise<void> | undefined;
 
-/**
- * Resolves when the page has loaded and the browser is idle, so that text and pictures come first.
- */
+/** Resolves when the page has loaded and the browser is idle, so that text and pictures come first. */
 export function pageIsCalm(): Promise<void> {
   calm ??= new Promise((resolve) => {
     const wait = () => {
@@ -55,7 +53,7 @@ export function pageIsCalm(): Promise<void> {
 
 let turn = Promise.resolve();
 
-/** Resolves for one caller per frame, in a task of its own. */
+/** Resolves for one caller per frame, in a separate task. */
 export function myTurn(): Promise<void> {
   turn = turn.then(() => new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve))));
   return turn;
@@ -70,7 +68,7 @@ export async function bringIntoView(element: Element): Promise<void> {
   const behavior = still ? "instant" : "smooth";
   if (parent === window) element.scrollIntoView({ block: "nearest", behavior });
   else {
-    // Scroll only the frame's own document, never the page around it.
+    // Scrolls only the frame's own document, never the surrounding page.
     const up = box.top - top;
     scrollBy({ top: up < 0 ? up : Math.min(up, box.bottom - innerHeight), behavior });
   }
@@ -78,7 +76,7 @@ export async function bringIntoView(element: Element): Promise<void> {
   await new Promise<void>((resolve) => {
     const done = () => {
       clearTimeout(timer);
-      // Without scrolling no scrollend fires, and each glide would leave a listener behind.
+      // Without scrolling there is no scrollend event, and each glide would leave a listener behind.
       removeEventListener("scrollend", done, true);
       resolve();
     };

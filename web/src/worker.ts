@@ -12,7 +12,7 @@ const WANTED = ["compute", "take_panic"];
 /** Minimum interval between progress reports, milliseconds. */
 const TELL_MS = 50;
 
-/** Carries out a request. Called in the page itself if workers are not allowed. */
+/** Runs a request. Called in the page itself if workers are not allowed. */
 export async function carryOut(
   { name, key, request, module, anew }: Request,
   tell: (answer: Answer, transfer?: Transferable[]) => void,
@@ -32,7 +32,7 @@ export async function carryOut(
     ).then((compiled) => load({ module_or_path: compiled }));
     await loading;
   } catch (problem) {
-    // Let the next request try again.
+    // Lets the next request try again.
     loading = undefined;
     tell({ key, problem: `${whyMissing(problem, CODE)}; ${TRY_AGAIN}`, missing: true });
     return;

@@ -1,4 +1,4 @@
-/** Sizes of spaces, changed by keys, wheel and fingers. */
+/** Zoom of spaces by keys, wheel and fingers. */
 
 import type { Snapshot, Space } from "./contract.js";
 import type { Hand } from "./picture.js";
@@ -6,7 +6,7 @@ import type { Hand } from "./picture.js";
 export class Zoom {
   readonly #hand: Hand;
   #snapshot: Snapshot | undefined;
-  /** Sizes of spaces that the snapshot does not know yet: keys may come faster than frames. */
+  /** Zoom of spaces not yet in the snapshot: keys may arrive faster than frames. */
   readonly #sizes = new Map<string, number>();
 
   constructor(hand: Hand) {
@@ -18,12 +18,12 @@ export class Zoom {
     this.#sizes.clear();
   }
 
-  /** The size of a space. */
+  /** Returns the zoom of a space. */
   of(space: Space): number {
     return this.#slider(space)?.value ?? 1;
   }
 
-  /** Sets the size of a space. */
+  /** Sets the zoom of a space. */
   to(space: Space, value: number): void {
     const slider = this.#slider(space);
     if (!slider) return;
@@ -32,7 +32,7 @@ export class Zoom {
     this.#hand.set(space.zoom, size);
   }
 
-  /** Enlarges a space, by one step of its slider at least. */
+  /** Multiplies the zoom of a space, by at least one step of its slider. */
   by(space: Space, factor: number): void {
     const slider = this.#slider(space);
     if (!slider || factor === 1) return;

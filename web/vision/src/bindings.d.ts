@@ -1,4 +1,4 @@
-/** The script of a part's module. */
+/** Script of a part's module. */
 declare module "*.part.js" {
   const load: import("./source.js").Bindings["default"];
   export default load;

@@ -2,6 +2,6 @@
 export interface Control {
   /** Cancels the call: it rejects with the reason of the signal. */
   signal?: AbortSignal | undefined;
-  /** Receives the stage in words and the completed share of the work, 0 to 1. */
+  /** Receives the current stage and the fraction done, 0 to 1. */
   progress?: ((stage: string, share: number) => void) | undefined;
 }

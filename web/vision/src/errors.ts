@@ -1,9 +1,9 @@
 /** Errors of calls. */
 
-/** Code of data without a result. */
+/** Reason why data give no result. */
 export type Code = "TooFew" | "Degenerate" | "NoConsensus";
 
-/** Data without a result: too few, degenerate, or without a model that enough of them support. */
+/** Error for data without a result: too few, degenerate, or without a model supported by enough of them. */
 export class VisionError extends Error {
   override readonly name = "VisionError";
   /** Reason. */
@@ -15,10 +15,10 @@ export class VisionError extends Error {
   }
 }
 
-/** Class or code, and message, as the modules and the worker give them. */
+/** Class or code, and message, as returned by modules and the worker. */
 export type Fault = readonly [kind: string, message: string];
 
-/** The error to throw. */
+/** Returns the error to throw. */
 export function errorOf([kind, message]: Fault): Error {
   switch (kind) {
     case "TypeError":
@@ -36,7 +36,7 @@ export function errorOf([kind, message]: Fault): Error {
   }
 }
 
-/** Class or code, and message, of anything thrown by a module. */
+/** Returns class or code, and message, of any error thrown by a module. */
 export function faultOf(problem: unknown): Fault {
   if (Array.isArray(problem)) return [String(problem[0]), String(problem[1])];
   return ["Error", problem instanceof Error ? problem.message : String(problem)];

@@ -4,7 +4,7 @@ import { LARGER, type Part } from "./api.js";
 import { PARTS } from "./parts.js";
 import type { Bindings } from "./source.js";
 
-/** Receives stage and completed share; cancels by returning false. */
+/** Callback with stage and fraction done; cancels by returning false. */
 export type Report = (stage: string, share: number) => boolean;
 
 /** A part with its functions. */
@@ -42,14 +42,14 @@ async function load(part: Part): Promise<Loaded> {
 
 async function compile(url: URL): Promise<WebAssembly.Module> {
   if (url.protocol === "file:") {
-    // A variable, so that bundlers for browsers leave the import alone.
+    // A variable, so that bundlers for browsers do not resolve the import.
     const name = "node:fs/promises";
     const fs = (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)) as typeof import("node:fs/promises");
     return WebAssembly.compile(await fs.readFile(url));
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url.href} answers ${response.status}`);
-  // Some servers send another type, which streaming refuses.
+  // Some servers send another type, which streaming compilation rejects.
   if (response.headers.get("content-type")?.startsWith("application/wasm")) {
     return WebAssembly.compileStreaming(response);
   }

@@ -13,9 +13,9 @@ export type { Picture } from "./pictures.js";
 
 /** Options of `Vision.load`. */
 export interface LoadOptions {
-  /** Whether calls run in a worker. Default: in pages, not in Node. */
+  /** Whether calls run in a worker. Default: true in pages, false in Node. */
   worker?: boolean;
-  /** Parts to load at once. Others load with the first call of one of their functions. */
+  /** Parts to load immediately. Others load with the first call of one of their functions. */
   parts?: readonly Part[];
 }
 
@@ -24,14 +24,14 @@ const forgotten = new FinalizationRegistry<Runner>((runner) => runner.closeLater
 
 export interface Vision extends Functions {}
 
-/** The functions of the library. Each call is a promise; the first call of a part loads it. */
+/** Functions of the library. Each call returns a promise; the first call of a part loads it. */
 export class Vision {
   private constructor(runner: Runner) {
     runners.set(this, runner);
     forgotten.register(this, runner);
   }
 
-  /** Makes the functions available. Every load is independent of the others. */
+  /** Creates an instance. Instances are independent of each other. */
   static async load(options: LoadOptions = {}): Promise<Vision> {
     const { worker = isPage(), parts = [], ...unknown } = options;
     for (const name of Object.keys(unknown)) {
@@ -43,14 +43,14 @@ export class Vision {
         throw new TypeError(`there is no part ${String(part)}; the parts are ${PART_NAMES.join(", ")}`);
       }
     }
-    // A page with a worker does without the scripts of the modules.
+    // A page with a worker does not need the scripts of the modules.
     const runner = worker ? new WorkerRunner(await findStart()) : new (await import("./thread.js")).ThreadRunner();
     const vision = new Vision(runner);
     await Promise.all(parts.map((part) => runner.run({ part, given: [] })));
     return vision;
   }
 
-  /** Ends the worker. Calls that have not finished reject, and so do later ones. */
+  /** Ends the worker. Unfinished and later calls reject. */
   close(): void {
     runners.get(this)?.close();
   }
@@ -90,7 +90,7 @@ for (const [name, [part, ...parameters]] of Object.entries(FUNCTIONS)) {
   Object.defineProperty(Vision.prototype, name, { value, writable: true, configurable: true });
 }
 
-/** Refuses typed arrays whose buffer was transferred: they look empty. */
+/** Rejects typed arrays whose buffer was transferred, as they look empty. */
 function requireAttached(name: string, value: unknown, depth = 0): void {
   if (ArrayBuffer.isView(value)) {
     if (value.byteLength === 0 && isDetached(value.buffer)) {

@@ -3,7 +3,7 @@
 import type { Part } from "./api.js";
 import type { Fault } from "./errors.js";
 
-/** A call; without a name, the part is only loaded. */
+/** A call; without a name, it only loads the part. */
 export interface Call {
   id: number;
   part: Part;

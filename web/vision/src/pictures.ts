@@ -1,4 +1,4 @@
-/** Pictures of the browser as pixels. */
+/** Conversion of browser pictures to pixels. */
 
 /** An `ImageBitmap`, a `VideoFrame`, or a `Blob` or `File` with an encoded image. */
 export type Picture =
@@ -6,12 +6,12 @@ export type Picture =
   | { readonly displayWidth: number; readonly displayHeight: number; close(): void }
   | { readonly size: number; readonly type: string; arrayBuffer(): Promise<ArrayBuffer> };
 
-/** Whether an argument is a picture, or a list with one. */
+/** Whether an argument is a picture, or a list that contains one. */
 export function hasPicture(value: unknown): boolean {
   return Array.isArray(value) ? value.some(isPicture) : isPicture(value);
 }
 
-/** An argument with the pixels of its pictures. */
+/** Returns an argument with its pictures replaced by their pixels. */
 export async function withPixels(name: string, value: unknown): Promise<unknown> {
   if (!Array.isArray(value)) return isPicture(value) ? pixels(name, value) : value;
   return Promise.all(value.map((one, index) => withPixels(`${name}[${index}]`, one)));

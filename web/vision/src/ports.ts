@@ -3,10 +3,10 @@
 import type { Answer, Call } from "./messages.js";
 import type { Start } from "./runner.js";
 
-/** Whether this is a page, where a long call would block it. */
+/** Whether this is a page, which a long call would block. */
 export const isPage = (): boolean => typeof document === "object" && typeof Worker === "function";
 
-/** Finds out how workers are started here. Rejects where there are none. */
+/** Returns a function that starts workers in this environment. Rejects if there are none. */
 export async function findStart(): Promise<Start> {
   if (typeof Worker === "function") return startWorker;
   const name = "node:worker_threads";
@@ -17,7 +17,7 @@ export async function findStart(): Promise<Start> {
     throw new Error("there are no workers here: load with { worker: false }", { cause });
   }
   return (onAnswer, onEnd) => {
-    // Without the arguments of this process: workers refuse some, such as --input-type.
+    // Without the arguments of this process, some of which workers reject, such as --input-type.
     const worker = new node.Worker(new URL("./worker.js", import.meta.url), { execArgv: [] });
     worker.on("message", (answer: Answer) => onAnswer(answer));
     worker.on("error", (problem: Error) => onEnd(problem.message));

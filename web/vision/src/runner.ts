@@ -4,10 +4,10 @@ import type { Part } from "./api.js";
 import { errorOf } from "./errors.js";
 import type { Answer, Call } from "./messages.js";
 
-/** A call with its options of control. */
+/** A call with its control options. */
 export interface Job {
   part: Part;
-  /** Nothing to only load the part. */
+  /** Function name; undefined to only load the part. */
   name?: string;
   given: readonly unknown[];
   signal?: AbortSignal | undefined;
@@ -17,22 +17,22 @@ export interface Job {
 export interface Runner {
   run(job: Job): Promise<unknown>;
   close(): void;
-  /** Closes once nothing runs. */
+  /** Closes once no call is running. */
   closeLater(): void;
 }
 
-/** Error of calls after the end. */
+/** Creates the error for calls after the end. */
 export const closed = () => new Error("this Vision is closed");
 
 /** A worker of the browser or of Node. */
 export interface Port {
   post(call: Call): void;
   terminate(): void;
-  /** Whether the process waits for it. */
+  /** Sets whether the process waits for it. */
   hold(isHeld: boolean): void;
 }
 
-/** Starts a worker, given listeners of its answers and of its end. */
+/** Starts a worker, given callbacks for its answers and its end. */
 export type Start = (onAnswer: (answer: Answer) => void, onEnd: (why: string) => void) => Port;
 
 interface Waiting extends Job {
@@ -41,7 +41,7 @@ interface Waiting extends Job {
   fail(problem: unknown): void;
 }
 
-/** Runs calls in a worker, one after the other. Abort terminates the worker; the next call starts another. */
+/** Runs calls in a worker, one after the other. Aborting a call terminates the worker; the next call starts another. */
 export class WorkerRunner implements Runner {
   readonly #start: Start;
   #port: Port | undefined;
@@ -106,7 +106,7 @@ export class WorkerRunner implements Runner {
         this.#end(problem);
       }
     } else if ("fault" in answer) {
-      // A module that has stopped is not used again.
+      // A module that has stopped must not be used again.
       if (answer.fault[0] === "Error") this.#end(errorOf(answer.fault));
       else this.#done(() => job.fail(errorOf(answer.fault)));
     } else this.#done(() => job.settle(answer.result));
@@ -120,7 +120,7 @@ export class WorkerRunner implements Runner {
     }
   }
 
-  /** Terminates the worker, and with it the running call. */
+  /** Terminates the worker with the running call. */
   #end(problem: unknown): void {
     this.#port?.terminate();
     this.#port = undefined;

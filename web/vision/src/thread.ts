@@ -37,6 +37,6 @@ export class ThreadRunner implements Runner {
   }
 
   closeLater(): void {
-    // Nothing is held outside the caller's memory.
+    // No resources are held outside of the caller's memory.
   }
 }

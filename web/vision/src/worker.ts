@@ -22,7 +22,7 @@ async function answer({ id, part, name, given, reports }: Call, post: Post): Pro
   }
 }
 
-/** Buffers of all typed arrays of a result, to move instead of copying. */
+/** Returns the buffers of all typed arrays in a result, to transfer instead of copying. */
 function buffers(value: unknown, found: ArrayBuffer[] = []): ArrayBuffer[] {
   if (ArrayBuffer.isView(value)) found.push(value.buffer as ArrayBuffer);
   else if (typeof value === "object" && value !== null) {
