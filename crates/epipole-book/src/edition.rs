@@ -106,7 +106,8 @@ pub(crate) fn make(
 
 /// Fills in a template.
 ///
-/// # Errors A template that is unreadable or names an unknown variable.
+/// # Errors
+/// A template that is unreadable or names an unknown variable.
 pub(crate) fn filled(file: &Path, data: &impl Serialize) -> Result<String> {
     let source =
         String::from_utf8(read(file)?).with_context(|| format!("{} is no text", file.display()))?;

@@ -108,7 +108,8 @@ impl<'a> Reading<'a> {
 
 /// Opens the cache of posters and snapshots.
 ///
-/// # Errors A folder that cannot be created.
+/// # Errors
+/// A folder that cannot be created.
 fn cache(project: &Path) -> Result<Cache> {
     let folder = target_folder(project).join("book-work/posters");
     std::fs::create_dir_all(&folder)

@@ -53,7 +53,8 @@ const WATCHED: &[&str] = &[
 /// Serves the site at `http://localhost:PORT`. With `watch`, builds it first, and again when a
 /// source changes.
 ///
-/// # Errors A busy port, or a missing tool at the first build.
+/// # Errors
+/// A busy port, or a missing tool at the first build.
 pub fn serve(options: &Options, port: u16, watch: bool) -> Result<()> {
     let listener = listen(port)?;
     let (reload, _) = broadcast::channel(16);

@@ -54,7 +54,8 @@ type Files = BTreeMap<String, Vec<u8>>;
 
 /// Builds the book.
 ///
-/// # Errors A missing tool or an unreadable folder. Problems of the content are not an error but
+/// # Errors
+/// A missing tool or an unreadable folder. Problems of the content are not an error but
 /// [`Outcome::Problems`].
 pub fn build(options: &Options, gallery: &dyn Gallery, phases: &Phases) -> Result<Outcome> {
     std::thread::scope(|scope| {

@@ -30,7 +30,8 @@ struct Data<'a> {
 
 /// Adds the decks, made with `web/slides/deck.hbs`.
 ///
-/// # Errors An unreadable template.
+/// # Errors
+/// An unreadable template.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     project: &Path,

@@ -62,7 +62,8 @@ impl Canvas {
     /// Creates an empty picture of `width × height` CSS pixels with `scale` device pixels each,
     /// filled with the background. `buffer` is reused if it fits.
     ///
-    /// # Errors [`BadSize`] if a side has no pixels, too many, or is not finite.
+    /// # Errors
+    /// [`BadSize`] if a side has no pixels, too many, or is not finite.
     pub fn new(
         width: f64,
         height: f64,

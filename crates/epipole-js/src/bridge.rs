@@ -17,7 +17,8 @@ const MAX_DEPTH: usize = 16;
 /// Calls a function by name. `report`, if given, receives the stage and the fraction done, and
 /// cancels by returning false.
 ///
-/// # Errors An array of class or code, and message.
+/// # Errors
+/// An array of class or code, and message.
 #[wasm_bindgen]
 pub fn call(name: &str, given: &Array, report: Option<Function>) -> Result<JsValue, JsValue> {
     let given: Vec<Value> = given.iter().map(|value| from_js(&value, 0)).collect();

@@ -10,7 +10,8 @@ pub type Points<const D: usize> = Vec<OPoint<f64, Const<D>>>;
 
 /// Pairs the elements of two lists of equal length.
 ///
-/// # Errors `RangeError` if lengths differ.
+/// # Errors
+/// `RangeError` if lengths differ.
 pub fn zip<const D: usize, const E: usize>(
     (name1, first): (&str, Vectors<D>),
     (name2, second): (&str, Vectors<E>),
@@ -28,7 +29,8 @@ pub fn zip<const D: usize, const E: usize>(
 
 /// Computes one number for each match.
 ///
-/// # Errors `RangeError` if lengths differ.
+/// # Errors
+/// `RangeError` if lengths differ.
 pub fn numbers(
     pixels1: Vectors<2>,
     pixels2: Vectors<2>,

@@ -64,7 +64,8 @@ impl Frame {
 impl Figure {
     /// Creates a figure in its default state.
     ///
-    /// # Errors A message with the names that exist.
+    /// # Errors
+    /// A message with the names that exist.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Figure, String> {
         let figure = Model::new(name).map_err(|problem| problem.to_string())?;

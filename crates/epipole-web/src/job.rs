@@ -16,7 +16,8 @@ extern "C" {
 
 /// Runs a computation for which a figure of this name waits. Terminating its worker cancels it.
 ///
-/// # Errors A message for the reader.
+/// # Errors
+/// A message for the reader.
 #[wasm_bindgen]
 pub fn compute(name: &str, request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
     let mut report = |share: f64| {

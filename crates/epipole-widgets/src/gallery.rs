@@ -151,7 +151,8 @@ const fn worker<V: View>() -> Worker {
 
 /// Returns the figure with this name.
 ///
-/// # Errors [`Problem::UnknownFigure`], with the existing names.
+/// # Errors
+/// [`Problem::UnknownFigure`], with the existing names.
 pub fn find(name: &str) -> Result<&'static Entry, Problem> {
     let mut figures = FIGURES.iter();
     figures
@@ -161,7 +162,8 @@ pub fn find(name: &str) -> Result<&'static Entry, Problem> {
 
 /// Runs a job of the figure `name`. It needs no figure, so a worker can run it.
 ///
-/// # Errors [`Problem::UnknownFigure`], or a message about the data.
+/// # Errors
+/// [`Problem::UnknownFigure`], or a message about the data.
 pub fn compute(name: &str, request: &[u8], progress: Progress<'_>) -> JobResult {
     let worker = WORKERS.iter().find(|worker| worker.name == name);
     let worker = worker.ok_or_else(|| unknown(name, WORKERS.iter().map(|worker| worker.name)))?;

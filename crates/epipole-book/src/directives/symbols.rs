@@ -32,7 +32,8 @@ impl Directive for Symbols {
 
 /// Renders the list of symbols.
 ///
-/// # Errors A message for an unknown symbol, with the known ones.
+/// # Errors
+/// A message for an unknown symbol, with the known ones.
 fn list(names: &[String]) -> Result<String, String> {
     let mut rows = String::new();
     for name in names {

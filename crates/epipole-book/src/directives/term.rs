@@ -20,7 +20,8 @@ pub(super) struct Named {
 impl Named {
     /// Parses `key | words`. The words default to the name of the term.
     ///
-    /// # Errors A message, unless there is exactly one key.
+    /// # Errors
+    /// A message, unless there is exactly one key.
     pub(super) fn parse(request: &Request) -> Result<Self, String> {
         let key = request.one_word("key | words")?;
         let body = request.body.as_ref();

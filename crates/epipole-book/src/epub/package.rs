@@ -81,7 +81,8 @@ impl<'a> Package<'a> {
 
     /// * `cover`: path of one of the pictures
     ///
-    /// # Errors A picture in a format that EPUB does not support.
+    /// # Errors
+    /// A picture in a format that EPUB does not support.
     pub(super) fn add_pictures(
         &mut self,
         paths: &BTreeSet<String>,

@@ -44,7 +44,8 @@ pub(crate) struct Chapter {
 
 /// Reads the book. `None` if the table of contents has problems, which are reported.
 ///
-/// # Errors Unreadable settings or chapters.
+/// # Errors
+/// Unreadable settings or chapters.
 pub(crate) fn read(content: &Content, problems: &Problems) -> Result<Option<Manuscript>> {
     check_contents(content, problems);
     if !problems.sorted().is_empty() {

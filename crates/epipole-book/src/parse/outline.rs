@@ -43,7 +43,8 @@ impl Outline {
 
     /// Returns the figure that `name` or `name#id` in a sentence at `place` refers to.
     ///
-    /// # Errors A message with the figures of the page.
+    /// # Errors
+    /// A message with the figures of the page.
     pub(crate) fn nearest(&self, wanted: &str, place: &Place) -> Result<&Instance, String> {
         nearest(wanted, place, &self.figures)
     }
@@ -194,7 +195,8 @@ fn at<'a>(place: &Place, all: &'a [Instance]) -> Option<&'a Instance> {
 /// Returns the figure for `name` or `name#id` in a sentence at `place`: the nearest, and of two
 /// equally near ones the earlier.
 ///
-/// # Errors A message with the figures of the page.
+/// # Errors
+/// A message with the figures of the page.
 fn nearest<'a>(wanted: &str, place: &Place, all: &'a [Instance]) -> Result<&'a Instance, String> {
     let (name, id) = match wanted.split_once('#') {
         Some((name, id)) => (name, Some(id)),

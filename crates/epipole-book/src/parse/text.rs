@@ -38,7 +38,8 @@ pub(crate) struct Request<'a> {
 impl<'a> Request<'a> {
     /// Returns the only word.
     ///
-    /// # Errors A message with `usage`, unless there is exactly one.
+    /// # Errors
+    /// A message with `usage`, unless there is exactly one.
     pub(crate) fn one_word(&self, usage: &str) -> Result<&'a str, String> {
         match &self.call.words[..] {
             [word] => Ok(word),

@@ -16,12 +16,14 @@ pub(crate) trait Directive: Sized + Send + 'static {
 
     /// Parses the directive, using nothing but the content folder.
     ///
-    /// # Errors A message with the problem and the correct syntax.
+    /// # Errors
+    /// A message with the problem and the correct syntax.
     fn parse(request: &Request, parser: &Parser) -> Result<Self, String>;
 
     /// Resolves the directive, using the core.
     ///
-    /// # Errors A message with the problem and its remedy.
+    /// # Errors
+    /// A message with the problem and its remedy.
     fn resolve(self, book: &Book) -> Result<Self::Resolved, String>;
 
     /// Renders the directive, and adds its requirements to the page.

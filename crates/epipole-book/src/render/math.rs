@@ -16,7 +16,8 @@ pub enum Layout {
 
 /// Converts a formula to MathML, with its LaTeX as an annotation.
 ///
-/// # Errors The error in the LaTeX, in one line.
+/// # Errors
+/// The error in the LaTeX, in one line.
 pub fn mathml(latex: &str, layout: Layout) -> Result<String, String> {
     let latex = latex.trim();
     if latex.is_empty() {

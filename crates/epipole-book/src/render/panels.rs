@@ -32,7 +32,8 @@ pub(crate) fn are_made(project: &Path) -> bool {
 
 /// Renders the content of each figure's shadow root.
 ///
-/// # Errors If the script is missing, fails, or returns an invalid result.
+/// # Errors
+/// If the script is missing, fails, or returns an invalid result.
 pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<String>> {
     if requests.is_empty() || !are_made(project) {
         return Ok(Vec::new());

@@ -48,7 +48,8 @@ impl<'a> Book<'a> {
 
     /// Returns the facts of a figure in a state, after its computations.
     ///
-    /// # Errors A message that names the figure.
+    /// # Errors
+    /// A message that names the figure.
     pub(crate) fn facts(&self, name: &str, settings: &Settings) -> Result<Arc<Facts>, String> {
         let key = (name.to_owned(), settings.to_vec());
         let lock = || self.facts.lock().unwrap_or_else(PoisonError::into_inner);
@@ -71,7 +72,8 @@ impl<'a> Book<'a> {
     /// Returns the posters of a figure in a state, narrow ones first; none in a check. Paper has
     /// one width.
     ///
-    /// # Errors A message.
+    /// # Errors
+    /// A message.
     pub(crate) fn posters(
         &self,
         name: &str,

@@ -20,7 +20,8 @@ impl Cache {
 
     /// Returns the cached data of a figure in a state, or calls `make` and caches the result.
     ///
-    /// # Errors Those of `make`.
+    /// # Errors
+    /// Those of `make`.
     pub(crate) fn get_or<T>(
         &self,
         (name, settings, what): (&str, &[(String, String)], &str),

@@ -11,7 +11,8 @@ const OPERATORS: [&str; 8] = [">=", "<=", "!=", ">", "<", "=", "has", "lacks"];
 
 /// Checks a claim against the facts of a figure.
 ///
-/// # Errors A message with the false comparison and the actual value, or with the part that is
+/// # Errors
+/// A message with the false comparison and the actual value, or with the part that is
 /// invalid.
 pub fn check(claim: &str, facts: &Facts) -> Result<(), String> {
     claim

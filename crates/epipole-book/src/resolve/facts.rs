@@ -21,7 +21,8 @@ pub struct Shown {
 impl Facts {
     /// Parses a snapshot.
     ///
-    /// # Errors A message, if the text is not JSON.
+    /// # Errors
+    /// A message, if the text is not JSON.
     pub fn parse(snapshot: &str) -> Result<Facts, String> {
         serde_json::from_str(snapshot)
             .map(Facts)
@@ -55,7 +56,8 @@ impl Facts {
 
     /// Checks names, separated by white space, against a list of the snapshot.
     ///
-    /// # Errors A message with the names that exist.
+    /// # Errors
+    /// A message with the names that exist.
     pub fn check_names(&self, list: &str, names: &str) -> Result<(), String> {
         let known = self.ids(list);
         match names.split_whitespace().find(|name| !known.contains(name)) {
@@ -72,7 +74,8 @@ impl Facts {
     /// Returns the value of a name: a readout, else the value of a control, else, as `goal.name`,
     /// whether a goal is reached.
     ///
-    /// # Errors A message with the names that exist.
+    /// # Errors
+    /// A message with the names that exist.
     pub fn shown(&self, id: &str) -> Result<Shown, String> {
         if let Some(readout) = self.entry("readouts", id) {
             let text = readout["text"].as_str().unwrap_or_default().to_owned();

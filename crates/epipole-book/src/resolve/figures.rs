@@ -70,7 +70,8 @@ pub trait Gallery: Send + Sync {
 
     /// Creates a figure in the state given by the settings.
     ///
-    /// # Errors A message for an unknown parameter, with those that exist, or for a value outside
+    /// # Errors
+    /// A message for an unknown parameter, with those that exist, or for a value outside
     /// its range.
     fn open(&self, name: &str, settings: &[(String, String)]) -> Result<Box<dyn Figure>, String>;
 }
@@ -79,13 +80,15 @@ pub trait Gallery: Send + Sync {
 pub trait Figure: Send + Sync {
     /// Returns JSON of everything but the picture, after all computations, as in a browser.
     ///
-    /// # Errors A message.
+    /// # Errors
+    /// A message.
     fn snapshot(&self) -> Result<String, String>;
 
     /// Draws light and dark posters, [`Room::width`] CSS pixels wide with `scale` device pixels per
     /// CSS pixel. Both are drawn together, as they contain the same photographs.
     ///
-    /// # Errors A message.
+    /// # Errors
+    /// A message.
     fn posters(&self, room: Room, scale: u32) -> Result<[Poster; 2], String>;
 }
 

@@ -43,7 +43,8 @@ pub fn registry() -> impl Iterator<Item = &'static Entry> {
 
 /// Formats a number, from `name` and `settings` as written by an author.
 ///
-/// # Errors A message with the invalid name, parameter or value, and the valid ones.
+/// # Errors
+/// A message with the invalid name, parameter or value, and the valid ones.
 pub fn print(name: &str, settings: &[(String, String)]) -> Result<String, String> {
     let mut digits = None;
     let mut rest = Vec::new();

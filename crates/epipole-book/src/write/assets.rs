@@ -26,7 +26,8 @@ use std::path::Path;
 
 /// Builds the figures for the browser, if the project has figures. This is the slowest step.
 ///
-/// # Errors A tool that is missing or fails, with the remedy.
+/// # Errors
+/// A tool that is missing or fails, with the remedy.
 pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
     let manifest = project.join("crates/epipole-web/Cargo.toml");
     if !manifest.is_file() {
@@ -37,14 +38,16 @@ pub(crate) fn modules(project: &Path) -> Result<Option<Modules>> {
 
 /// Returns the math font, subset to the letters of formulas.
 ///
-/// # Errors A tool that is missing or fails, with the remedy.
+/// # Errors
+/// A tool that is missing or fails, with the remedy.
 pub(crate) fn math_font(project: &Path, letters: &Letters) -> Result<Vec<u8>> {
     fonts::math(&Tools::find(project)?, letters)
 }
 
 /// Makes all other assets, and adds the figures.
 ///
-/// # Errors A tool that is missing or fails, with the remedy.
+/// # Errors
+/// A tool that is missing or fails, with the remedy.
 pub(crate) fn make(
     project: &Path,
     live: bool,

@@ -35,7 +35,8 @@ pub(crate) struct Card {
 /// Draws a card for each page, using the posters in the files of the site, and adds them to these
 /// files. Returns them by the paths of their pages.
 ///
-/// # Errors An unreadable poster.
+/// # Errors
+/// An unreadable poster.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     book_title: &str,

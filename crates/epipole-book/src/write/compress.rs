@@ -20,7 +20,8 @@ const TEXTUAL: &[&str] = &[
 
 /// Adds the compressed copies.
 ///
-/// # Errors If a compressor fails, which does not happen in memory.
+/// # Errors
+/// If a compressor fails, which does not happen in memory.
 pub fn add(files: &mut BTreeMap<String, Vec<u8>>) -> Result<()> {
     let compressed: Vec<(String, Vec<u8>)> = files
         .par_iter()

@@ -38,7 +38,8 @@ pub(crate) struct Frame {
 /// Draws the posters of all figures in their initial state, on separate pages, whose files belong
 /// to the site.
 ///
-/// # Errors The message of a figure that cannot be drawn.
+/// # Errors
+/// The message of a figure that cannot be drawn.
 pub(crate) fn draw(book: &Book) -> Result<Vec<Frame>> {
     let frame = |name: &String| {
         let facts = book.facts(name, &[])?;
@@ -85,7 +86,8 @@ struct Data<'a> {
 
 /// Adds the pages, made with `web/theme/frame.hbs`.
 ///
-/// # Errors An unreadable template.
+/// # Errors
+/// An unreadable template.
 pub(crate) fn add(
     files: &mut BTreeMap<String, Vec<u8>>,
     project: &Path,

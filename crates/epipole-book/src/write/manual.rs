@@ -30,7 +30,8 @@ pub(crate) struct Manual {
 impl Manual {
     /// Reads the manual.
     ///
-    /// # Errors A folder without the list of sections, or an unreadable file.
+    /// # Errors
+    /// A folder without the list of sections, or an unreadable file.
     pub(crate) fn read(folder: &Path) -> Result<Manual> {
         let mut manual = Manual::default();
         let list = folder.join(SECTIONS);
@@ -53,7 +54,8 @@ impl Manual {
 
 /// Reads the reference, which has a search of its own.
 ///
-/// # Errors A folder without an index page, or an unreadable file.
+/// # Errors
+/// A folder without an index page, or an unreadable file.
 pub(crate) fn read_reference(folder: &Path) -> Result<Files> {
     let first = folder.join("index.html");
     if !first.is_file() {

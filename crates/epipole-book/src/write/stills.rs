@@ -38,7 +38,8 @@ type Color = [u8; 3];
 
 /// Writes `NAME.png` for each figure, and all descriptions as `words.json`, to a folder.
 ///
-/// # Errors A figure that cannot be drawn, or a folder that is not writable.
+/// # Errors
+/// A figure that cannot be drawn, or a folder that is not writable.
 pub fn write(gallery: &dyn Gallery, folder: &Path) -> Result<usize> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;

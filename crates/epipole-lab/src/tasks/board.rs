@@ -180,7 +180,8 @@ impl Run for FindBoard {
 
 /// Reads a photograph in the sensor's orientation, as lens distortion is defined in its frame.
 ///
-/// # Errors A message, if the file is unreadable, or there is no photograph of a board with this
+/// # Errors
+/// A message, if the file is unreadable, or there is no photograph of a board with this
 /// index.
 #[cfg(feature = "files")]
 fn of_sensor(source: &Source) -> Result<image::RgbImage, String> {

@@ -28,7 +28,8 @@ pub(super) const COUNT: usize = POSES.len();
 
 /// Renders a photograph of the set; `None` beyond its end.
 ///
-/// # Errors As [`Board::new`] and [`Intrinsics::new`], which do not fail for these values.
+/// # Errors
+/// As [`Board::new`] and [`Intrinsics::new`], which do not fail for these values.
 pub(super) fn photograph(index: u8) -> Result<Option<RgbImage>, epipole::Error> {
     let Some([x, y, z, right, down, away]) = POSES.get(usize::from(index)) else {
         return Ok(None);

@@ -119,7 +119,8 @@ mod run {
         /// Returns the model in the files, and the name of one of them; `None` if they contain
         /// none.
         ///
-        /// # Errors A message for an invalid model, or one without the sizes of its images.
+        /// # Errors
+        /// A message for an invalid model, or one without the sizes of its images.
         fn model(&self) -> Result<Option<(&str, Model)>, String> {
             let name = self.files.first().map_or("", |(name, _)| name);
             let is_one_file = self.files.len() == 1 && !is_alone(name);

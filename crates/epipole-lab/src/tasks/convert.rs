@@ -29,7 +29,8 @@ pub(super) fn unreadable(error: epipole_io::Error) -> String {
 
 /// Converts the board.
 ///
-/// # Errors A message, if it is invalid.
+/// # Errors
+/// A message, if it is invalid.
 pub(super) fn core_board(options: &BoardOptions, square_m: f64) -> Result<Board, String> {
     let pattern = match options.pattern {
         BoardPattern::Chessboard => Pattern::Chessboard,
@@ -52,7 +53,8 @@ pub(super) fn lens_kind(model: LensModel) -> LensKind {
 
 /// Converts a calibrated camera to a type of the core.
 ///
-/// # Errors A message, if its numbers are invalid.
+/// # Errors
+/// A message, if its numbers are invalid.
 #[cfg(feature = "files")]
 pub(super) fn core_lens_camera(camera: &LensCamera) -> Result<Camera, String> {
     let [fu, fv, cu, cv] = camera.k;

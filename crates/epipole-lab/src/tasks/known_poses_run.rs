@@ -11,7 +11,8 @@ use nalgebra::{Quaternion, UnitQuaternion};
 
 /// Triangulates points for known poses.
 ///
-/// # Errors A message, if the poses do not fit the photographs, or for cancellation.
+/// # Errors
+/// A message, if the poses do not fit the photographs, or for cancellation.
 pub(super) fn triangulate(
     input: &SfmInput,
     poses: &[Option<Pose>],

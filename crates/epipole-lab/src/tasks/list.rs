@@ -59,7 +59,8 @@ macro_rules! tasks {
 
         /// Runs the task of a request and returns its output as bytes.
         ///
-        /// # Errors A message for the reader, also if the task belongs to the other code module.
+        /// # Errors
+        /// A message for the reader, also if the task belongs to the other code module.
         #[cfg(any(feature = "vision", feature = "files"))]
         pub fn compute(request: &[u8], monitor: super::Monitor<'_>) -> Result<Vec<u8>, String> {
             use super::task::Run;

@@ -67,7 +67,8 @@ impl Photograph {
 
     /// Returns its pixels as an image.
     ///
-    /// # Errors A message, if their number does not fit its size.
+    /// # Errors
+    /// A message, if their number does not fit its size.
     #[cfg(any(feature = "vision", feature = "files"))]
     pub(super) fn to_image(&self) -> Result<image::RgbImage, String> {
         image::RgbImage::from_raw(self.width, self.height, self.rgb.0.to_vec())
@@ -331,7 +332,8 @@ fn rendered(image: image::RgbImage, focal_px: Option<f64>) -> Photograph {
 
 /// Decodes a file just as `epipole sfm` does, with `--max-megapixels` and `--camera`.
 ///
-/// # Errors A message for an unreadable file, a field of view too wide for a flat image, or
+/// # Errors
+/// A message for an unreadable file, a field of view too wide for a flat image, or
 /// cancellation.
 #[cfg(feature = "files")]
 fn file(

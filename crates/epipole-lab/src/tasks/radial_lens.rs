@@ -14,7 +14,8 @@ fn radial([k1, k2]: [f64; 2]) -> Lens {
 
 /// Writes `[k1, k2]`.
 ///
-/// # Errors A message for a lens with other terms, which the Lab never makes.
+/// # Errors
+/// A message for a lens with other terms, which the Lab never makes.
 pub(super) fn serialize<S: Serializer>(lens: &Lens, serializer: S) -> Result<S::Ok, S::Error> {
     let terms = match lens {
         Lens::Brown(distortion) => [distortion.k1, distortion.k2],

@@ -81,7 +81,8 @@ impl Component {
     ///
     /// * `sizes`: width and height of each image, pixels
     ///
-    /// # Errors A message for invalid numbers.
+    /// # Errors
+    /// A message for invalid numbers.
     pub(super) fn to_core(
         &self,
         sizes: impl IntoIterator<Item = (u32, u32)>,

@@ -15,7 +15,8 @@ const RENDERED: (u32, u32) = (480, 360);
 /// Renders a photograph of a sample. Returns it with its focal length in pixels, if its file would
 /// contain one.
 ///
-/// # Errors A message, if the sample has no photograph with this index.
+/// # Errors
+/// A message, if the sample has no photograph with this index.
 pub(super) fn render(sample: Sample, index: u8) -> Result<(RgbImage, Option<f64>), String> {
     if index >= sample.len() {
         return Err("the sample has no such photograph".to_owned());

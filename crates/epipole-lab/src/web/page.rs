@@ -65,7 +65,8 @@ impl Lab {
 
     /// Starts drawing on a canvas.
     ///
-    /// # Errors If WebGL is not available.
+    /// # Errors
+    /// If WebGL is not available.
     pub async fn start(&self, canvas: HtmlCanvasElement, shell: Shell) -> Result<(), JsValue> {
         let (inbox, mirror) = (Rc::clone(&self.inbox), self.mirror.clone());
         let creator = Box::new(move |creation: &eframe::CreationContext<'_>| {

@@ -44,7 +44,8 @@ pub fn take_panic() -> Option<String> {
 
 /// Runs a request of the Lab. Terminating its worker cancels it.
 ///
-/// # Errors A message for the reader.
+/// # Errors
+/// A message for the reader.
 #[wasm_bindgen(js_name = compute)]
 pub fn carry_out(request: &[u8], listener: &Listener) -> Result<Vec<u8>, String> {
     compute(request, &mut |progress| {

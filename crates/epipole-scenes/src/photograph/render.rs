@@ -111,7 +111,8 @@ impl Scene {
     /// * `camera`: for a picture of the target's size
     /// * `wanted`: for each pixel of the target, row by row, whether to render it
     ///
-    /// # Errors As [`Scene::render`], and [`Error::SizeMismatch`] if the sizes of the three differ.
+    /// # Errors
+    /// As [`Scene::render`], and [`Error::SizeMismatch`] if the sizes of the three differ.
     pub fn render_draft(
         &self,
         camera: &PosedCamera,

@@ -117,7 +117,8 @@ pub struct Layout {
 impl Layout {
     /// Returns the panel with this id.
     ///
-    /// # Panics If the view has no panel with this id; views name their own panels, and tests draw
+    /// # Panics
+    /// If the view has no panel with this id; views name their own panels, and tests draw
     /// every view.
     pub fn panel(&self, id: &str) -> &Panel {
         self.panels

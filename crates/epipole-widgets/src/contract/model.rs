@@ -43,7 +43,8 @@ pub trait Model {
     /// positions of handles within their ranges and digits, clicks within their panel.
     /// [`Event::Reset`] never arrives, since it creates a new model.
     ///
-    /// # Errors A message for the reader; the state is unchanged.
+    /// # Errors
+    /// A message for the reader; the state is unchanged.
     fn update(&mut self, event: &Event) -> Result<(), Problem>;
 
     /// Restores a handle added by the reader from a permalink; false if the id is not one of these
@@ -85,7 +86,8 @@ pub trait Model {
     /// Takes the reader's photograph for one of [`Declared::PHOTO_SLOTS`]. It is not part of the
     /// permalink.
     ///
-    /// # Errors A message for the reader if the photograph cannot be used; the state is unchanged.
+    /// # Errors
+    /// A message for the reader if the photograph cannot be used; the state is unchanged.
     fn take_photo(&mut self, _slot: &str, _photo: RgbImage) -> Result<(), Problem> {
         Ok(())
     }

@@ -87,7 +87,8 @@ impl Settings {
 
     /// Sets one knob, snapping a slider to its grid. Returns whether anything changed.
     ///
-    /// # Errors [`Problem::BadValue`] for a value of the wrong kind, outside the range or not
+    /// # Errors
+    /// [`Problem::BadValue`] for a value of the wrong kind, outside the range or not
     /// finite. For an `id` that is not in the list, returns `Ok(None)`.
     pub fn set(&mut self, id: &str, value: &Value) -> Result<Option<bool>, Problem> {
         let Some(index) = self.knobs.iter().position(|knob| knob.id() == id) else {

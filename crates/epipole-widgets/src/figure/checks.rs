@@ -7,7 +7,8 @@ use crate::contract::{Control, ControlKind, Event, Problem};
 impl Figure {
     /// Applies an event. After an error, the figure is unchanged.
     ///
-    /// # Errors A message for the reader: an unknown name, an invalid value, or a failed
+    /// # Errors
+    /// A message for the reader: an unknown name, an invalid value, or a failed
     /// computation.
     pub fn update(&mut self, event: &Event) -> Result<(), Problem> {
         match event {

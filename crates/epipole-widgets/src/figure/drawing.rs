@@ -18,7 +18,8 @@ impl Figure {
 
     /// Draws the current state, `width` CSS pixels wide, at `scale` device pixels per CSS pixel.
     ///
-    /// # Errors [`Problem::BadSize`] for an empty or too large picture.
+    /// # Errors
+    /// [`Problem::BadSize`] for an empty or too large picture.
     pub fn draw(&mut self, width: f64, scale: f64, theme: Theme) -> Result<&Picture, Problem> {
         if !(1.0..=Canvas::MAX_SIDE).contains(&width) {
             return Err(BadSize { width, height: 0.0 }.into());

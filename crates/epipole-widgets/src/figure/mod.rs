@@ -186,7 +186,8 @@ impl Figure {
 
     /// Puts a photograph of the reader into a slot.
     ///
-    /// # Errors [`Problem::UnknownParameter`] for an unknown slot, or a message about the
+    /// # Errors
+    /// [`Problem::UnknownParameter`] for an unknown slot, or a message about the
     /// photograph.
     pub fn take_photo(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         if self.photo_slots().iter().all(|known| known.id != slot) {

@@ -34,7 +34,8 @@ pub(crate) struct Pair {
 impl Pair {
     /// Renders the photographs and detects their features on the first call.
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn of_still_life(progress: Progress<'_>) -> Result<&'static Self, Error> {
         static FOUND: OnceLock<Pair> = OnceLock::new();
         if let Some(found) = FOUND.get() {
@@ -63,7 +64,8 @@ impl Pair {
 
     /// Returns one of the photographs, 0 or 1.
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn photograph(
         index: usize,
         progress: Progress<'_>,
@@ -78,7 +80,8 @@ impl Pair {
 
     /// Returns the features of one of the photographs, 0 or 1.
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(crate) fn features(
         index: usize,
         progress: Progress<'_>,

@@ -75,7 +75,8 @@ pub(crate) struct House {
 }
 
 impl House {
-    /// # Errors Never for the constants above, as a test confirms.
+    /// # Errors
+    /// Never for the constants above, as a test confirms.
     pub(crate) fn new() -> Result<Self, Error> {
         let mut points: Vec<Point3<f64>> = CORNERS.map(Point3::from).to_vec();
         let mut wires = Vec::new();

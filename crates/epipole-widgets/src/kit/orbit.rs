@@ -140,7 +140,8 @@ impl Orbit {
 
     /// Applies an event of the 3D view; returns false for other events.
     ///
-    /// # Errors For an invalid value of the zoom.
+    /// # Errors
+    /// For an invalid value of the zoom.
     pub(crate) fn update(&mut self, event: &Event) -> Result<bool, Problem> {
         match event {
             Event::HandleMoved { id, x, y } if id == SPACE.orbit => self.turned = (*x, *y),

@@ -85,7 +85,8 @@ impl Photo {
     /// * `camera`: for a full picture of `width × height` pixels
     /// * `arrangement`: positions of the scene's movable objects; any constant if there are none
     ///
-    /// # Errors As [`Scene::render`]: no picture can be rendered at the camera's position.
+    /// # Errors
+    /// As [`Scene::render`]: no picture can be rendered at the camera's position.
     pub(crate) fn picture(
         &mut self,
         scene: &Scene,

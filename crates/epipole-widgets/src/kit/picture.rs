@@ -135,7 +135,8 @@ impl<const N: usize> Own<N> {
 
     /// Takes a photograph.
     ///
-    /// # Errors A message if it is too small; the state is then unchanged.
+    /// # Errors
+    /// A message if it is too small; the state is then unchanged.
     pub(crate) fn take(&mut self, slot: &str, photo: RgbImage) -> Result<(), Problem> {
         let (width, height) = photo.dimensions();
         if width.min(height) < self.min_side_px {

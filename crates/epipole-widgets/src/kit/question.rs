@@ -26,7 +26,8 @@ pub(crate) trait Question: PartialEq + Serialize + DeserializeOwned + 'static {
 
     /// Runs the computation, a function of the question alone.
     ///
-    /// # Errors A message in lower case without a period, or [`Error::Canceled`].
+    /// # Errors
+    /// A message in lower case without a period, or [`Error::Canceled`].
     fn answer(&self, progress: Progress<'_>) -> Result<Self::Answer, Problem>;
 
     /// Returns whether an answer is valid for the question: of the right size, without NaN.

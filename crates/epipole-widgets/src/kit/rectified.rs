@@ -51,7 +51,8 @@ pub(crate) struct RectifiedPair {
 impl RectifiedPair {
     /// Renders the pair.
     ///
-    /// # Errors [`Error::OutOfRange`] for the baseline, and [`Error::Canceled`] if `progress`
+    /// # Errors
+    /// [`Error::OutOfRange`] for the baseline, and [`Error::Canceled`] if `progress`
     /// cancels.
     pub(crate) fn render(baseline_m: f64, progress: Progress<'_>) -> Result<Self, Problem> {
         tell(progress, 0.0)?;

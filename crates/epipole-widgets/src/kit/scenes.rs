@@ -119,7 +119,8 @@ pub(crate) fn still_life_pair(
 
 /// Renders a sharp photograph of the still life.
 ///
-/// # Errors As [`Scene::render`], and [`Error::Canceled`] if `progress` cancels.
+/// # Errors
+/// As [`Scene::render`], and [`Error::Canceled`] if `progress` cancels.
 pub(crate) fn photograph(
     camera: &PosedCamera,
     (width, height): (u32, u32),
@@ -141,7 +142,8 @@ pub(crate) fn photograph(
 /// Returns the long table with its ball at a position in the top view, meters to the right of the
 /// left camera and away from it.
 ///
-/// # Errors As [`Scene::long_table`], if the position is not on the table.
+/// # Errors
+/// As [`Scene::long_table`], if the position is not on the table.
 pub(crate) fn long_table((x_m, z_m): (f64, f64)) -> Result<Scene, Error> {
     Scene::long_table(MovableObject {
         kind: MovableKind::Ball,

@@ -31,7 +31,8 @@ pub(crate) fn camera(frame: usize) -> PosedCamera {
 
 /// Returns all frames, rendered on the first call.
 ///
-/// # Errors [`Error::Canceled`] if `progress` cancels.
+/// # Errors
+/// [`Error::Canceled`] if `progress` cancels.
 pub(crate) fn frames(progress: Progress<'_>) -> Result<&'static [RgbImage], Error> {
     static FRAMES: OnceLock<Vec<RgbImage>> = OnceLock::new();
     if let Some(frames) = FRAMES.get() {

@@ -24,7 +24,8 @@ pub(super) struct Answer {
 impl Number {
     /// Computes the answer.
     ///
-    /// # Errors A message.
+    /// # Errors
+    /// A message.
     pub(super) fn answer(self) -> Result<Answer, String> {
         let (value, printed) = match (&self.value, self.answer) {
             (Some(call), _) => {

@@ -24,7 +24,8 @@ pub(super) struct Parts<'a> {
 
 /// Adds the scripts for other sites.
 ///
-/// # Errors If a part is missing, or the glue for widgets is unreadable.
+/// # Errors
+/// If a part is missing, or the glue for widgets is unreadable.
 pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Result<()> {
     let newest = format!("export * from \"../{}\";\n", parts.elements);
     let fixed = format!("export * from \"../../{}\";\n", parts.elements);

@@ -19,7 +19,8 @@ const WINDOW: usize = 30_000;
 /// Returns the module with its functions in an order that compresses well and depends only on the
 /// bytes.
 ///
-/// # Errors If the bytes are not a WebAssembly module.
+/// # Errors
+/// If the bytes are not a WebAssembly module.
 pub(super) fn ordered(wasm: &[u8]) -> Result<Vec<u8>> {
     let mut num_imported = 0;
     let mut bodies = Vec::new();

@@ -12,7 +12,8 @@ use std::process::{Command, Stdio};
 
 /// Builds the Lab in the folder of the site. Returns its number of files.
 ///
-/// # Errors A tool that is missing or fails, with the remedy.
+/// # Errors
+/// A tool that is missing or fails, with the remedy.
 pub fn make(project: &Path, site: &Path) -> Result<usize> {
     let tools = Tools::find(project)?;
     let page = wasm::build(&tools, "epipole-lab", "page")?;

@@ -92,7 +92,8 @@ fn groups<'a>(html: &str, files: &[&'a str]) -> Vec<Vec<&'a str>> {
 
 /// Adds the worker for these pages, after all other files.
 ///
-/// # Errors If esbuild is missing or fails.
+/// # Errors
+/// If esbuild is missing or fails.
 pub fn add_offline(project: &Path, live: bool, pages: &[&str], files: &mut Files) -> Result<()> {
     let tools = Tools::find(project)?;
     let source = match live {

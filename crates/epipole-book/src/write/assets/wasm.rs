@@ -71,7 +71,8 @@ pub(super) fn make(tools: &Tools) -> Result<Modules> {
 
 /// Builds the modules of the npm package of the core. Returns their folder.
 ///
-/// # Errors A tool that is missing or fails, with the remedy.
+/// # Errors
+/// A tool that is missing or fails, with the remedy.
 pub fn make_parts(project: &Path) -> Result<PathBuf> {
     let tools = Tools::find(project)?;
     make_all(&tools, "epipole-js", &PARTS, &OF_PARTS)?;

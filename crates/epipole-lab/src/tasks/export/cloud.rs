@@ -25,7 +25,8 @@ pub(super) fn surface(export: &Export) -> Mesh {
 
 /// Adds `fused.ply` and the file of the surface, if there is depth of all views.
 ///
-/// # Errors A message, if a file cannot be written.
+/// # Errors
+/// A message, if a file cannot be written.
 pub(super) fn add(archive: &mut Archive, export: &Export, surface: &Mesh) -> Result<(), String> {
     let Some(all_views) = &export.all_views else {
         return Ok(());

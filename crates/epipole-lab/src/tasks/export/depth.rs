@@ -14,7 +14,8 @@ use std::io::Cursor;
 
 /// Adds `depth/<pair>.pfm` and `.png` for each pair, and `dense.ply`, if there is any.
 ///
-/// # Errors A message, if the data of a pair are incomplete or a file cannot be written.
+/// # Errors
+/// A message, if the data of a pair are incomplete or a file cannot be written.
 pub(super) fn add(archive: &mut Archive, export: &Export) -> Result<(), String> {
     if export.dense.is_empty() {
         return Ok(());

@@ -71,7 +71,8 @@ pub(super) struct Ambiguity {
 impl Ambiguity {
     /// * `motion`: true `cam2_from_cam1`
     ///
-    /// # Errors As [`decompose_essential`], for values that are not finite.
+    /// # Errors
+    /// As [`decompose_essential`], for values that are not finite.
     pub(super) fn of(motion: &RigidTransform) -> Result<Self> {
         let step = motion.translation.vector.norm();
         let rays: Vec<_> = house().iter().map(|corner| rays(corner, motion)).collect();

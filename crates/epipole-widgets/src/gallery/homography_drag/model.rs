@@ -132,7 +132,8 @@ impl HomographyDrag {
 
     /// Returns the homography from pixels to cm on the plane, positive in front of the horizon.
     ///
-    /// # Errors A message if the corners do not determine one.
+    /// # Errors
+    /// A message if the corners do not determine one.
     pub(super) fn plane_from_photo(&self) -> Result<Matrix3<f64>, &'static str> {
         if self.wants_photos() {
             return Err(NO_PHOTO);

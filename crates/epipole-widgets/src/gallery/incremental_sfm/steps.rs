@@ -65,7 +65,8 @@ impl Step {
 ///
 /// * `truth`: true cameras of the photographs
 ///
-/// # Errors As [`IncrementalReconstruction::new`], and if no pair is suitable as a start.
+/// # Errors
+/// As [`IncrementalReconstruction::new`], and if no pair is suitable as a start.
 pub(super) fn follow(
     input: &SfmInput,
     truth: &[PosedCamera],

@@ -34,7 +34,8 @@ impl Corners {
     ///
     /// * `most`: maximum number of corners per frame
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(super) fn follow(
         frames: &[GrayImage32],
         most: usize,

@@ -82,7 +82,8 @@ impl Voters {
 
     /// Runs the loop. Too few or collinear matches give a refusal.
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(super) fn vote(&self, progress: Progress<'_>) -> Result<Votes, Error> {
         let mut votes = Votes::default();
         let mut samples = match self.begin() {

@@ -127,7 +127,8 @@ impl Comparison {
 
     /// Compares the photograph before and after its change.
     ///
-    /// # Errors [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// [`Error::Canceled`] if `progress` cancels.
     pub(super) fn of(subject: &Subject, progress: Progress<'_>) -> Result<Self, Problem> {
         let known = Known::find(&mut |share| progress(0.9 * share))?;
         let scale_px = match subject.scales {

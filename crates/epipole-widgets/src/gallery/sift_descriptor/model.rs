@@ -48,7 +48,8 @@ pub(crate) struct SiftDescriptor {
 impl SiftDescriptor {
     /// Returns the photograph before its change.
     ///
-    /// # Errors A message: the problem, or that the photograph is being rendered.
+    /// # Errors
+    /// A message: the problem, or that the photograph is being rendered.
     pub(super) fn photograph(&self) -> Result<&RgbImage, &str> {
         match self.photograph.answer() {
             Some(Answer::Photograph(picture)) => Ok(picture.image()),

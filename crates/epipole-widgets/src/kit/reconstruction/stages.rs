@@ -23,7 +23,8 @@ const MAX_FEATURES: usize = 3000;
 impl Question {
     /// Runs every stage in order.
     ///
-    /// # Errors As the stages, and [`Error::Canceled`] if `progress` cancels.
+    /// # Errors
+    /// As the stages, and [`Error::Canceled`] if `progress` cancels.
     pub(super) fn follow(&self, progress: Progress<'_>) -> Result<Answer, Problem> {
         tell(progress, 0.0)?;
         let pictures = self.photographs(progress)?;

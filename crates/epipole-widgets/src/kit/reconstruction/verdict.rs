@@ -55,7 +55,8 @@ pub(super) struct Judged {
 
 /// Judges matches; inliers are at most `max_error_px` from their epipolar lines.
 ///
-/// # Errors For values that are not finite; a lack of consensus is a verdict, not an error.
+/// # Errors
+/// For values that are not finite; a lack of consensus is a verdict, not an error.
 pub(super) fn judge(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     cameras: &[Camera; 2],
