@@ -76,6 +76,23 @@ impl Buffer {
         self.add(bytes, 34962, accessor)
     }
 
+    /// Adds positions in the texture, 0 to 1 from its top left corner.
+    pub(crate) fn texture_coordinates(&mut self, places: &[[f32; 2]]) -> usize {
+        let bytes = places.as_flattened().iter().flat_map(|x| x.to_le_bytes());
+        let accessor = json!({ "componentType": FLOAT, "count": places.len(), "type": "VEC2" });
+        self.add(bytes.collect(), 34962, accessor)
+    }
+
+    /// Adds the content of an image file and returns the number of its view.
+    pub(crate) fn image(&mut self, bytes: &[u8]) -> usize {
+        self.views.push(json!({
+            "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(),
+        }));
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.views.len() - 1
+    }
+
     pub(crate) fn indices(&mut self, indices: &[u32]) -> usize {
         let bytes = indices.iter().flat_map(|index| index.to_le_bytes());
         let accessor = json!({ "componentType": INDEX, "count": indices.len(), "type": "SCALAR" });

@@ -70,6 +70,7 @@ mod pair;
 mod patch;
 mod plane;
 mod sweep;
+mod texture;
 mod views;
 
 pub use depth_map::DepthMap;
@@ -77,4 +78,5 @@ pub use depth_maps::estimate_depth_maps;
 pub use fusion::fuse_depth_maps;
 pub use mesh::{Mesh, MeshOptions, mesh_depth_maps};
 pub use options::MvsOptions;
+pub use texture::{MeshTexture, TextureOptions, texture_mesh};
 pub use views::{MvsView, prepare_views};

@@ -12,6 +12,7 @@ mod gathered_matches;
 mod invariance_of_points;
 mod mvs_mesh;
 mod mvs_rendered;
+mod mvs_texture;
 mod names;
 mod nist_strd;
 mod odometry_real;
