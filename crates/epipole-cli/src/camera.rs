@@ -12,7 +12,7 @@ pub(crate) struct CameraArguments {
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     pub(crate) k: Option<Intrinsics>,
-    /// Focal length in pixels. The principal point is the middle of each photograph.
+    /// Focal length in pixels. The principal point is the center of each image.
     #[arg(long, value_name = "F", value_parser = positive, conflicts_with = "k")]
     pub(crate) focal_px: Option<f64>,
 }
@@ -59,7 +59,7 @@ impl CameraArguments {
 pub(crate) struct PairArguments {
     #[command(flatten)]
     camera: CameraArguments,
-    /// Intrinsics of the second camera; those of --k if not given.
+    /// Intrinsics of the second camera [default: those of --k].
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k2: Option<Intrinsics>,
 }

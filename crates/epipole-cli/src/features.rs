@@ -22,11 +22,11 @@ use nalgebra::Point2;
 pub(crate) enum Kind {
     /// Scale-invariant features, Euclidean descriptors.
     Sift,
-    /// The same with the Hellinger kernel; usually matches better.
+    /// SIFT with the Hellinger kernel; usually matches better.
     Rootsift,
     /// Oriented FAST corners with 256 comparisons: fast.
     Orb,
-    /// Harris corners with normalized patches: for pictures taken from nearly the same place.
+    /// Harris corners with normalized patches: for images taken from nearly the same place.
     Harris,
 }
 
@@ -88,17 +88,17 @@ impl FeatureArguments {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Matches")]
 pub(crate) struct MatchArguments {
-    /// Ratio test (the nearest descriptor must be closer than this share of the second nearest).
-    #[arg(long, default_value_t = 0.8, value_name = "SHARE", value_parser = above_0_up_to_1)]
+    /// Ratio test (maximum ratio of the distances to the nearest and second-nearest descriptor).
+    #[arg(long, default_value_t = 0.8, value_name = "RATIO", value_parser = above_0_up_to_1)]
     pub(crate) ratio: f32,
     /// Require mutual nearest neighbors; --mutual=false to disable.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) mutual: bool,
-    /// No feature of the second photograph in two matches, the closest stays; --unique=false to do
-    /// without. Mutual matches are unique already.
+    /// Keep only the closest match of each feature of the second image; --unique=false to disable.
+    /// Mutual matches are already unique.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     pub(crate) unique: bool,
-    /// The largest distance of two descriptors [default: any].
+    /// Maximum distance of two descriptors [default: any].
     #[arg(long, value_name = "D", value_parser = not_negative)]
     pub(crate) max_distance: Option<f32>,
 }

@@ -67,9 +67,9 @@ pub(crate) fn tell_of_others(
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
     /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
-    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°.
-    /// Images stay distorted, and results are of rays.
-    #[arg(long = "camera", value_name = "FILE", help_heading = "Photographs")]
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size, also rotated by
+    /// 90°. Images stay distorted, and results refer to rays.
+    #[arg(long = "camera", value_name = "FILE", help_heading = "Images")]
     camera_file: Option<PathBuf>,
 }
 

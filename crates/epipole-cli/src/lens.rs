@@ -13,13 +13,13 @@ use std::path::Path;
 /// The model of a lens, as a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
-    /// Five numbers (Brown and Conrady), for usual lenses.
+    /// Five coefficients (Brown and Conrady), for usual lenses.
     Brown,
-    /// Eight numbers, for wide angles.
+    /// Eight coefficients, for wide angles.
     Rational,
-    /// Four numbers (Kannala and Brandt), for views of 120° and more.
+    /// Four coefficients (Kannala and Brandt), for views of 120° and more.
     Fisheye,
-    /// One number (Fitzgibbon's division model), for lenses that bend much and few boards.
+    /// One coefficient (Fitzgibbon's division model), for strong distortion and few boards.
     Division,
 }
 

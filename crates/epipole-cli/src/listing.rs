@@ -20,10 +20,9 @@ const UNREAD: [&str; 14] = [
 
 /// Folders of photographs.
 #[derive(Debug, Clone, Copy, Default, Args)]
-#[command(next_help_heading = "Photographs")]
+#[command(next_help_heading = "Images")]
 pub(crate) struct ListingArguments {
-    /// Also take the photographs in folders of folders. Names in results are relative to the folder
-    /// that all have in common.
+    /// Include images in subfolders. Names in results are relative to the common folder.
     #[arg(long)]
     recursive: bool,
 }

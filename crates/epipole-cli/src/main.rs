@@ -49,7 +49,7 @@ use std::time::Instant;
 /// Behind what is of one command alone.
 const LAST: usize = 900;
 
-/// Multi-view geometry on your own photographs.
+/// Multi-view geometry on your own photos.
 #[derive(Debug, Parser)]
 #[command(name = "epipole", version, propagate_version = true)]
 struct Cli {
@@ -65,11 +65,11 @@ struct Cli {
     /// Number of threads [default: all cores].
     #[arg(long, global = true, display_order = LAST, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
-    /// TOML file of options: keys before the first table are for every command, [sfm] is for sfm.
-    /// Options of the command line win.
+    /// TOML file of options. Keys before the first table apply to every command, those of [sfm] to
+    /// sfm; options on the command line take precedence.
     #[arg(long, global = true, display_order = LAST, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Print the options of the command as TOML, as --config reads them, and do nothing else.
+    /// Print the options of the command as TOML for --config, and exit.
     #[arg(long, global = true, display_order = LAST)]
     dump_config: bool,
     #[command(subcommand)]

@@ -30,8 +30,8 @@ pub(crate) struct PatternArguments {
     /// Markers of a ChArUco board. 4x4_N, 5x5_N, 6x6_N, 7x7_N (N is 50, 100, 250 or 1000) or 36h11.
     #[arg(long, value_name = "NAME", default_value = "4x4_50", value_parser = dictionary)]
     dictionary: MarkerDictionary,
-    /// Distance between the tags of an AprilGrid, as a share of their side.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.3, value_parser = positive)]
+    /// Gap between the tags of an AprilGrid, relative to their side.
+    #[arg(long, value_name = "RATIO", default_value_t = 0.3, value_parser = positive)]
     tag_spacing: f64,
 }
 

@@ -13,14 +13,13 @@ const BYTES_PER_PIXEL: f64 = 6.0;
 
 /// Reading of photos.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Photographs")]
+#[command(next_help_heading = "Images")]
 pub(crate) struct ReadArguments {
-    /// Values that become black and white, in the numbers of the file: those in use, if it has more
-    /// than 8 bits (auto); all that it could have (full); or two numbers.
+    /// Values of the file that become black and white: its used range, if it has more than 8 bits
+    /// (auto); its full range (full); or two numbers.
     #[arg(long, value_name = "auto|full|LOW,HIGH", default_value = "auto", value_parser = range, allow_hyphen_values = true)]
     pub(crate) range: PixelRange,
-    /// Memory that a photograph may take while it is read, at 6 bytes a pixel. It is downscaled
-    /// after that.
+    /// Maximum memory for reading an image, at 6 bytes per pixel before downscaling.
     #[arg(long, value_name = "GB", default_value_t = 2.0, value_parser = positive)]
     max_memory_gb: f64,
 }
@@ -87,14 +86,14 @@ fn range(text: &str) -> Result<PixelRange, String> {
 
 /// Size of photos.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Photographs")]
+#[command(next_help_heading = "Images")]
 pub(crate) struct SizeArguments {
     /// Downscale images to at most M megapixels. Results are in pixels of the downscaled image; --k
-    /// and --focal-px are of the file.
+    /// and --focal-px are in pixels of the file.
     #[arg(long, value_name = "M", value_parser = positive)]
     pub(crate) max_megapixels: Option<f64>,
-    /// Length of the longer side of the cameras' sensors, mm, for photographs whose EXIF data have
-    /// the focal length in millimeters only.
+    /// Longer side of the sensor, mm, for images whose EXIF data have the focal length in
+    /// millimeters only.
     #[arg(long, value_name = "W", value_parser = positive)]
     pub(crate) sensor_width_mm: Option<f64>,
     #[command(flatten)]

@@ -6,13 +6,13 @@ use epipole::optim::{LmOptions, RobustLoss};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Loss {
-    /// Squares.
+    /// Squared errors.
     None,
-    /// Squares near zero, then straight.
+    /// Quadratic near zero, then linear.
     Huber,
-    /// Grows with the logarithm.
+    /// Grows logarithmically.
     Cauchy,
-    /// Squares near zero, then the same for all: outliers do not count.
+    /// Quadratic near zero, then constant: outliers have no influence.
     Truncated,
 }
 
@@ -23,23 +23,23 @@ pub(crate) struct RefinementArguments {
     /// Loss function.
     #[arg(long, value_enum, default_value = "none")]
     loss: Loss,
-    /// From which error on the loss is no longer a square: pixels, or standard deviations of a
+    /// Error above which the loss is no longer quadratic: pixels, or standard deviations of a
     /// measurement.
     #[arg(long, default_value_t = 1.0, value_name = "W", value_parser = positive)]
     loss_width: f64,
-    /// Done when no component of the gradient is larger.
+    /// Stop when no component of the gradient is larger than this.
     #[arg(long, default_value = "1e-10", value_name = "G", value_parser = not_negative)]
     gradient_tolerance: f64,
-    /// Done when a step is shorter than this share of the length of all parameters.
-    #[arg(long, default_value = "1e-10", value_name = "SHARE", value_parser = not_negative)]
+    /// Stop when a step is shorter than this, relative to the norm of all parameters.
+    #[arg(long, default_value = "1e-10", value_name = "RATIO", value_parser = not_negative)]
     step_tolerance: f64,
-    /// Done when a step lowers the cost by less than this share.
-    #[arg(long, default_value = "1e-9", value_name = "SHARE", value_parser = not_negative)]
+    /// Stop when a step lowers the cost by less than this, relatively.
+    #[arg(long, default_value = "1e-9", value_name = "RATIO", value_parser = not_negative)]
     cost_tolerance: f64,
-    /// Initial damping, relative to the diagonal; of a pose graph at most 1e-12.
+    /// Initial damping, relative to the diagonal (for a pose graph at most 1e-12).
     #[arg(long, default_value = "1e-4", value_name = "L", value_parser = positive)]
     initial_damping: f64,
-    /// Maximum number of steps in a row that raise the cost; of a pose graph at least 3.
+    /// Maximum number of consecutive steps that raise the cost (for a pose graph at least 3).
     #[arg(long, default_value_t = LmOptions::default().patience, value_name = "N")]
     patience: usize,
 }

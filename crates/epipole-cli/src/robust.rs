@@ -19,9 +19,9 @@ const SAMPLES_PER_LOOK: usize = 64;
 /// Sampling strategy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Sampler {
-    /// All data alike.
+    /// All data with equal probability.
     Uniform,
-    /// The best data first, as matches from photographs are ordered and rows of a file should be.
+    /// The best data first: matches of images are sorted, and rows of a file should be.
     Prosac,
 }
 
@@ -48,18 +48,18 @@ const AUTO: &str = "auto";
 /// Scoring function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Score {
-    /// By the squared errors of its inliers.
+    /// Squared errors of the inliers.
     Msac,
-    /// By their number alone.
+    /// Number of inliers.
     Inliers,
 }
 
-/// Which formula says how many samples are enough.
+/// Formula for the required number of samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BudgetFormula {
-    /// Of samples that put no datum back, as they are drawn.
+    /// Sampling without replacement, as samples are drawn.
     WithoutReplacement,
-    /// The textbook's.
+    /// The textbook formula: sampling with replacement.
     WithReplacement,
 }
 
@@ -70,10 +70,10 @@ pub(crate) struct RobustArguments {
     /// Maximum error of an inlier (pixels; "auto" finds it from the noise of the matches).
     #[arg(long, default_value_t = MaxError::Pixels(RansacOptions::default().max_error_px), value_name = "PX|auto", value_parser = max_error)]
     max_error_px: MaxError,
-    /// The probability that one sample at least is free of outliers.
+    /// Probability that at least one sample is free of outliers.
     #[arg(long, default_value_t = RansacOptions::default().confidence, value_name = "P", value_parser = confidence)]
     confidence: f64,
-    /// Samples drawn at most.
+    /// Maximum number of samples.
     #[arg(long, default_value_t = RansacOptions::default().max_iterations as u32, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     max_iterations: u32,
     /// Minimum number of samples.
@@ -85,13 +85,13 @@ pub(crate) struct RobustArguments {
     /// Scoring function.
     #[arg(long, value_enum, default_value = "msac")]
     score: Score,
-    /// Which formula says how many samples are enough.
+    /// Formula for the required number of samples.
     #[arg(long, value_enum, default_value = "without-replacement")]
     budget: BudgetFormula,
     /// Improve promising models from their inliers; --local-optimization=false for plain RANSAC.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true")]
     local_optimization: bool,
-    /// Rounds of such an improvement.
+    /// Number of rounds of local optimization.
     #[arg(long, default_value_t = RansacOptions::default().inner_iterations as u32, value_name = "N")]
     inner_iterations: u32,
 }

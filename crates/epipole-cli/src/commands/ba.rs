@@ -18,15 +18,15 @@ use std::path::{Path, PathBuf};
 #[command(
     after_help = "Example: epipole ba problem-49-7776-pre.txt -o refined.txt\n\n\
     JSON: initial_cost and final_cost (half the sum of squares over all observations, pixels²),\n\
-    iterations, termination (why it ended), history ([iteration, cost] of each step)."
+    iterations, termination (why it stopped), history ([iteration, cost] of each step)."
 )]
 pub(crate) struct Arguments {
-    /// A problem in the BAL text format.
+    /// Problem in the BAL text format.
     problem: PathBuf,
-    /// Write the refined problem here.
+    /// Write the refined problem.
     #[arg(short, long, value_name = "OUT.txt")]
     output: Option<PathBuf>,
-    /// Steps tried at most.
+    /// Maximum number of steps.
     #[arg(long, default_value_t = 200, value_name = "N")]
     max_iterations: usize,
     #[command(flatten)]

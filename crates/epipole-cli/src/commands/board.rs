@@ -31,32 +31,32 @@ const AT_SCALE: &str = "Print at 100%, and measure the ruler.";
     Print at 100%, without \"fit to page\": the ruler below the board must be 100 mm long. Glue the sheet to\n\
     something flat. The caption names the options with which `epipole calibrate` reads the board.\n\n\
     ChArUco boards are those of OpenCV from 4.6 on: the upper left square is black (no legacyPattern), and\n\
-    markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is the lower left one, and borders have\n\
-    two bits; --square-mm is the side of a tag.\n\n\
+    markers are numbered row by row. AprilGrids are those of Kalibr: tag 0 is at the lower left, and borders are\n\
+    two bits wide; --square-mm is the side of a tag.\n\n\
     Single markers: epipole board --markers 36h11 --size 3x4 --square-mm 45 --first-id 10 -o markers.pdf\n\n\
-    JSON: files, kind, size (columns and rows), square_mm, paper_mm and board_mm (width and height of what is\n\
-    black), calibrate (options of `epipole calibrate` for this board). With --markers kind is \"markers\", and in\n\
-    place of calibrate: detect (options of `epipole detect`), ids (first and last), gap_mm."
+    JSON: files, kind, size (columns and rows), square_mm, paper_mm and board_mm (width and height of the black\n\
+    area), calibrate (options of `epipole calibrate` for this board). With --markers, kind is \"markers\", and\n\
+    detect (options of `epipole detect`), ids (first and last) and gap_mm replace calibrate."
 )]
 pub(crate) struct Arguments {
-    /// Marks of the board. Inner corners of a chessboard, squares of a ChArUco board, tags of an
-    /// AprilGrid, disks; single markers.
+    /// Columns and rows of the board (inner corners of a chessboard, squares of a ChArUco board,
+    /// tags of an AprilGrid, disks) or of single markers.
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     size: (usize, usize),
-    /// Side of a square, tag or marker, mm. Of circles the distance of two rows.
+    /// Side of a square, tag or marker, mm. For circles, the distance between rows.
     #[arg(long, value_name = "S", default_value_t = 25.0, value_parser = positive)]
     square_mm: f64,
-    /// Side of a ChArUco marker, mm (without, three quarters of a square).
+    /// Side of a ChArUco marker, mm [default: three quarters of a square].
     #[arg(long, value_name = "M", value_parser = positive)]
     marker_mm: Option<f64>,
-    /// Size of the paper (a4, a3, letter, or WIDTHxHEIGHT in millimeters; named ones are turned as
-    /// the board needs it).
+    /// Paper size (a4, a3, letter, or WIDTHxHEIGHT in millimeters; named sizes are rotated to fit
+    /// the board).
     #[arg(long, value_name = "PAPER", default_value = "a4", value_parser = paper)]
     paper: Paper,
-    /// Pixels an inch, of a PNG.
+    /// Pixels per inch of a PNG.
     #[arg(long, value_name = "N", default_value_t = 300.0, value_parser = positive)]
     dpi: f64,
-    /// A file that ends in .pdf, .svg or .png.
+    /// Output file, .pdf, .svg or .png.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     #[command(flatten)]

@@ -20,44 +20,44 @@ use epipole_io::camera::{CameraFormat, Cameras, camera_fields, write_cameras};
 use serde_json::{Map, Value, json};
 use std::path::{Path, PathBuf};
 
-/// Calibrate a camera, or a stereo rig, from photographs of a board.
+/// Calibrate a camera or a stereo rig from images of a board.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o camera.json\n\n\
-    Boards: `epipole board` draws them. Of a chessboard half of the corners must be seen, two at least in each of its\n\
-    outermost rows and columns; of a ChArUco board or an AprilGrid (of Kalibr, with borders of two bits) any part with\n\
-    six corners. ChArUco boards that OpenCV drew before 4.6 with an even number of rows are others. Ten to twenty\n\
-    views do, turned by 30° to 45° about several axes, some of them at the edges of the picture. The right\n\
-    photographs are of the same moments, in the same order. Photographs taken upright are of the same camera: sizes and\n\
-    pixels are those of the sensor, before photographs are turned.\n\n\
+    `epipole board` draws boards. Half of the corners of a chessboard must be visible, at least two in each of\n\
+    its outermost rows and columns. Of a ChArUco board or an AprilGrid (of Kalibr, with borders of two bits) any\n\
+    part with six corners suffices. ChArUco boards drawn by OpenCV before 4.6 with an even number of rows are\n\
+    different. Ten to twenty views are enough, tilted by 30° to 45° about several axes, some of them at the edges\n\
+    of the image. The right images must show the same moments in the same order. Images taken upright are of the\n\
+    same camera: sizes and pixels are those of the sensor, before images are rotated.\n\n\
     JSON: image (width and height), k (fx, fy, cx, cy), distortion (model and coefficients, in OpenCV's order),\n\
-    rms_px, std_dev (of k and of the coefficients), coverage (share of the image that boards reach), views\n\
+    rms_px, std_dev (of k and of the coefficients), coverage (fraction of the image that boards reach), views\n\
     (name, found, num_marks, rms_px and cam_from_board with rotation and translation, or the problem),\n\
-    warnings; with --right also right (the same of the right camera) and stereo (right_from_left,\n\
+    warnings; with --right also right (the same for the right camera) and stereo (right_from_left,\n\
     std_dev_rotation_rad, std_dev_translation_m, rms_px, baseline_m, pairs_rms_px)."
 )]
 pub(crate) struct Arguments {
-    /// Photographs of the board, all of one size, or a folder of them.
+    /// Images of the board, all of one size, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
-    /// Marks of the board. Inner corners of a chessboard, squares of a ChArUco board, tags of an
-    /// AprilGrid, disks.
+    /// Columns and rows of the board (inner corners of a chessboard, squares of a ChArUco board,
+    /// tags of an AprilGrid, disks).
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = columns_and_rows)]
     board: (usize, usize),
-    /// Side of a square or tag [default: 1, so that lengths are in squares]. Of circles the distance
-    /// of two rows.
+    /// Side of a square or tag [default: 1, so that lengths are in squares]. For circles, the
+    /// distance between rows.
     #[arg(long, value_name = "S", value_parser = positive)]
     square_m: Option<f64>,
-    /// The side of a ChArUco board's markers [default: three quarters of a square].
+    /// Side of a ChArUco marker [default: three quarters of a square].
     #[arg(long, value_name = "M", value_parser = positive)]
     marker_m: Option<f64>,
-    /// Photographs by a second camera.
+    /// Images of the right camera of a stereo rig.
     #[arg(long, value_name = "IMAGES", num_args = 1..)]
     right: Vec<PathBuf>,
-    /// The model of the lens.
+    /// Lens model.
     #[arg(long, value_enum, default_value = "brown")]
     model: Model,
-    /// Steps of refinement at most.
+    /// Maximum number of steps.
     #[arg(long, default_value_t = CalibrationOptions::default().max_iterations, value_name = "N")]
     max_iterations: usize,
     /// Camera file: .json, or .yml for OpenCV; - for JSON on standard output.

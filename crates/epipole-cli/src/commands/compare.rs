@@ -35,36 +35,37 @@ enum Align {
 /// Beyond this ratio of sizes, the unit of length is another one.
 const OTHER_UNIT: f64 = 1.2;
 
-/// Compare an estimated trajectory with the true one.
+/// Compare an estimated trajectory with ground truth.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole compare groundtruth.txt estimate.txt --align sim3 --plot errors.svg\n\n\
-    Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), by their content, and the\n\
-    images of models (COLMAP, Bundler, nerfstudio, openMVG). A pose of the trajectory with fewer poses is compared\n\
-    with the nearest in time of the other; images of two models with that of the same name; else poses of equal\n\
-    number, images in the order of their names. Errors are those of evo: APE after the alignment, RPE over all pairs that are --step poses apart.\n\n\
+    Reads TUM (t tx ty tz qx qy qz qw), KITTI (12 numbers) and EuRoC (CSV in nanoseconds), recognized by content,\n\
+    and the images of models (COLMAP, Bundler, nerfstudio, openMVG). Each pose of the trajectory with fewer poses\n\
+    is compared with the nearest in time of the other; images of two models are paired by name; all others by\n\
+    index, images in the order of their names. Errors are those of evo: APE after alignment, RPE over all pairs\n\
+    --step poses apart.\n\n\
     JSON: ate_rmse_m, rpe_rmse (translation), scale and truth_from_estimate of the alignment, ape and rpe\n\
     (translation_m and rotation_deg with rmse, mean, median, std, min, max, sse), num_pairs, num_poses (of both),\n\
     associated_by (time, name or index), formats."
 )]
 pub(crate) struct Arguments {
-    /// The true trajectory, or a model.
+    /// Ground-truth trajectory, or a model.
     truth: PathBuf,
-    /// The estimated trajectory, or a model.
+    /// Estimated trajectory, or a model.
     estimate: PathBuf,
     /// Alignment of the estimate.
     #[arg(long, value_enum, default_value = "se3")]
     align: Align,
-    /// Largest time difference (of poses that are compared, seconds).
+    /// Maximum time difference (of paired poses, seconds).
     #[arg(long, default_value_t = 0.01, value_name = "S", value_parser = positive)]
     max_difference_s: f64,
-    /// Compare poses of equal number, whatever their times.
+    /// Pair poses by index, ignoring their times.
     #[arg(long)]
     by_index: bool,
     /// Step of the RPE, poses.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     step: u32,
-    /// Plot both paths from above, and the error along time.
+    /// Plot both paths from above, and the error over time.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
 }

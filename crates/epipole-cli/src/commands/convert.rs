@@ -22,25 +22,26 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole convert reconstruction/ model/ --to colmap-binary\n\n\
-    A may be a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) or a\n\
-    PLY file; cameras of any format that --camera takes; or a trajectory (TUM, KITTI, EuRoC). B names the format:\n\
-    model.html (a page to turn and measure it), model.glb, points.ply, transforms.json, sfm_data.json, bundle.out;\n\
-    cameras.yml (OpenCV), camera.json, cameras.txt; path.txt (TUM, or KITTI of KITTI), path.csv (EuRoC). A folder is COLMAP's, binary unless A is.\n\
-    Files of an earlier conversion to the same format are removed, others stay.\n\n\
-    A model may also become cameras or a trajectory: the poses of its images in their order, with\n\
-    times if the images are named by them.\n\n\
-    COLMAP cuts names at their first blank in text files, not in binary ones.\n\n\
+    A may be a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) or\n\
+    a PLY file; cameras of any format that --camera takes; or a trajectory (TUM, KITTI, EuRoC). B names the\n\
+    format: model.html (a page to rotate and measure it), model.glb, points.ply, transforms.json, sfm_data.json,\n\
+    bundle.out; cameras.yml (OpenCV), camera.json, cameras.txt; path.txt (TUM, or KITTI if A is KITTI), path.csv\n\
+    (EuRoC). A folder is a COLMAP model, binary unless A is binary. Files of an earlier conversion to the same\n\
+    format are removed, others stay.\n\n\
+    A model can also be converted to cameras or to a trajectory: the poses of its images in order,\n\
+    with times if the images are named by them.\n\n\
+    COLMAP cuts names at their first blank in text files, not in binary files.\n\n\
     JSON: read (format of A), written (files), kind (format of B), counts (cameras, images, points; poses of a\n\
     trajectory), notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// The file or folder to read.
+    /// File or folder to read.
     #[arg(value_name = "A")]
     input: PathBuf,
-    /// The file or folder to write.
+    /// File or folder to write.
     #[arg(value_name = "B")]
     output: PathBuf,
-    /// Format to write [default: by the name of B].
+    /// Format to write [default: from the name of B].
     #[arg(long, value_name = "FORMAT")]
     to: Option<Format>,
 }

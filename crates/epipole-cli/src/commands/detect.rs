@@ -14,7 +14,7 @@ use epipole::calibration::{Marker, MarkerDictionary, MarkerOptions, detect_marke
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Find features or markers in a photograph.
+/// Find features or markers in an image.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole detect photo.jpg --features sift --max-features 2000 --png marks.png\n\n\
@@ -24,9 +24,9 @@ use std::path::PathBuf;
     number of wrong bits)."
 )]
 pub(crate) struct Arguments {
-    /// A photograph.
+    /// Image file.
     image: PathBuf,
-    /// Write the photograph with the features marked.
+    /// Write the image with the features marked.
     #[arg(long, value_name = "FILE.png")]
     png: Option<PathBuf>,
     /// Find square markers instead of features: 4x4_N, 5x5_N, 6x6_N, 7x7_N (N is 50, 100, 250 or

@@ -20,22 +20,22 @@ use std::path::PathBuf;
 pub(crate) struct Arguments {
     /// The figure's name, as in <epipole-figure name="…">.
     name: String,
-    /// A parameter of the figure; repeat for more.
+    /// Parameter of the figure; repeat for more.
     #[arg(long, value_name = "KEY=VALUE", value_parser = key_value)]
     set: Vec<(String, String)>,
     /// Size in CSS pixels, 760 or 800x600 (one number is the width).
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
-    /// Device pixels to a CSS pixel.
+    /// Device pixels per CSS pixel.
     #[arg(long, default_value_t = 2.0, value_parser = scale)]
     scale: f64,
-    /// light, dark or high-contrast.
+    /// Theme: light, dark or high-contrast.
     #[arg(long, default_value = "light", value_parser = |name: &str| name.parse::<Theme>())]
     theme: Theme,
-    /// The picture to write, a PNG file.
+    /// PNG file to write.
     #[arg(short, long, value_name = "OUT.png")]
     output: Option<PathBuf>,
-    /// Say in words what the figure shows.
+    /// Describe the figure in words.
     #[arg(long)]
     describe: bool,
 }

@@ -28,51 +28,51 @@ enum Model {
     Homography,
     /// x2ᵀ F x1 = 0.
     Fundamental,
-    /// The same for known intrinsics; also gives the motion.
+    /// x2ᵀ E x1 = 0 for known intrinsics; also gives the motion.
     Essential,
-    /// Turn, scale and shift.
+    /// Rotation, scale and translation.
     Similarity,
 }
 
-/// Fit a model to matches of which some are wrong.
+/// Fit a model to matches with outliers.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole fit --model fundamental matches.txt --max-error-px 1\n\n\
-    A file of matches, as epipole match writes it, has one a line, u1 v1 u2 v2; further columns are ignored, # begins\n\
-    a comment. A first line may name the columns: u1 v1 u2 v2 or x1 y1 x2 y2, of points u v or x y. Numbers may\n\
-    stand between commas, semicolons, tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
-    JSON: model (9 numbers row by row; of a line 3: a, b, c), inliers (1 or 0 for each row),\n\
-    num_inliers, iterations (samples drawn), required_iterations (samples that so many inliers ask\n\
-    for; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
-    Ctrl-C), could_be_chance (whether wrong data would show as many inliers), max_error_px (that of the\n\
-    options, or with auto the one found), mean_error_px (of the inliers), num_left_out (rows beyond 10⁹\n\
-    pixels), for homography and fundamental not_determined (a sentence where the inliers show no motion,\n\
-    or for fundamental a plane or a turn; else null), and for essential cam2_from_cam1 (rotation and\n\
-    translation of length 1) and could_be_turn (whether a turn of the camera alone explains nearly all\n\
-    inliers: then that translation means nothing).\n\n\
-    Errors are distances of a point from the line, in image 2 from where homography or similarity put a\n\
-    pixel, and Sampson errors of fundamental and essential."
+    A file of matches, as epipole match writes it, has one match per line, u1 v1 u2 v2; further columns are\n\
+    ignored, # begins a comment. A header may name the columns: u1 v1 u2 v2 or x1 y1 x2 y2 (points: u v or x y).\n\
+    Numbers are separated by commas, semicolons, tabs or spaces; decimal commas work only with semicolons or tabs.\n\n\
+    JSON: model (9 numbers row by row; for a line 3: a, b, c), inliers (1 or 0 for each row),\n\
+    num_inliers, iterations (samples drawn), required_iterations (samples required for this inlier\n\
+    ratio; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
+    Ctrl-C), could_be_chance (whether random data would have as many inliers), max_error_px (as given,\n\
+    or as found by auto), mean_error_px (of the inliers), num_left_out (rows beyond 10⁹ pixels), for\n\
+    homography and fundamental not_determined (a sentence if the inliers show no motion, or for\n\
+    fundamental a plane or a rotation; else null), and for essential cam2_from_cam1 (rotation and\n\
+    translation of length 1) and could_be_turn (whether a rotation alone explains nearly all inliers,\n\
+    so that the translation is meaningless).\n\n\
+    Errors: distance of a point from a line; distance in image 2 for homography and similarity; Sampson\n\
+    error for fundamental and essential."
 )]
 pub(crate) struct Arguments {
     /// Model to fit.
     #[arg(long, value_enum)]
     model: Model,
-    /// A text file with one match a line; - for standard input.
+    /// Text file with one match per line; - for standard input.
     matches: PathBuf,
-    /// Write the inliers; with commas if the name ends in .csv; -: standard output.
+    /// Write the inliers (comma-separated if the name ends in .csv; -: standard output).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Intrinsics of camera 1. For the essential matrix.
+    /// Intrinsics of camera 1 (for the essential matrix).
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k: Option<Intrinsics>,
-    /// Intrinsics of the second camera; those of --k if not given.
+    /// Intrinsics of camera 2 [default: those of --k].
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
     k2: Option<Intrinsics>,
-    /// Down in the frame of the first camera (y down, z forward): with it three matches are a
-    /// sample, not five.
+    /// Direction of gravity in the frame of camera 1 (y down, z forward); reduces a sample from
+    /// five matches to three.
     #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity2")]
     gravity: Option<Vector3<f64>>,
-    /// Down in the frame of the second camera.
+    /// Direction of gravity in the frame of camera 2.
     #[arg(long, value_name = "x,y,z", value_parser = direction, allow_hyphen_values = true, requires = "gravity")]
     gravity2: Option<Vector3<f64>>,
     #[command(flatten)]

@@ -18,10 +18,10 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example: epipole frames walk/ --num-frames 20 -o photos, after\n\
     ffmpeg -i walk.mp4 -qscale:v 2 walk/%05d.jpg\n\n\
-    The frames, in the order of their names, are divided into so many parts of equal length; of each part the\n\
-    sharpest one is copied as it is.\n\n\
-    JSON: num_frames (of those given), files (those written), chosen (name and sharpness of each: the mean square of\n\
-    its details of a few pixels)."
+    The frames, in the order of their names, are divided into --num-frames parts of equal length, and the sharpest\n\
+    frame of each part is copied unchanged.\n\n\
+    JSON: num_frames (of the input), files (those written), chosen (name and sharpness of each: mean square of its\n\
+    details of a few pixels)."
 )]
 pub(crate) struct Arguments {
     /// Frames of one size, or a folder of them.
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// Number of frames to choose.
     #[arg(long, default_value_t = 20, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     num_frames: u32,
-    /// The folder for the result.
+    /// Output folder.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
     #[command(flatten)]

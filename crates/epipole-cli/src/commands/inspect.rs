@@ -15,19 +15,19 @@ use epipole_io::trajectory::{Trajectory, is_trajectory};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Tell what a file or a folder with a model holds.
+/// Describe the content of a file or a model folder.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: epipole inspect reconstruction/sparse/0\n\n\
     Reads the models of COLMAP (text, binary), Bundler, nerfstudio (transforms.json), openMVG (sfm_data.json) and\n\
     PLY files; cameras of any format that --camera takes; trajectories of TUM, KITTI and EuRoC; photographs, PFM\n\
     files, g2o, BAL, tables of points and matches.\n\n\
-    JSON: kind (the format), counts, notes. Of a model also convention (frames and pixels of the file),\n\
+    JSON: kind (the format), counts, notes. For a model also convention (frames and pixels of the file),\n\
     mean_reprojection_px (null without observations), cameras (lens, k and distortion of each; width and height,\n\
-    null if not in the file), notes (what was left out or is odd: names with blanks, images without points, points\n\
-    behind cameras, NaN). Of cameras: convention, cameras, right_from_left (translation of a rig, or null). Of a\n\
+    null if not in the file), notes (omissions and oddities: names with blanks, images without points, points\n\
+    behind cameras, NaN). For cameras: convention, cameras, right_from_left (translation of a rig, or null). For a\n\
     trajectory: length, seconds (or null).")]
 pub(crate) struct Arguments {
-    /// A file, or a folder with a model.
+    /// File, or folder of a model.
     input: PathBuf,
 }
 

@@ -14,7 +14,7 @@ use std::path::PathBuf;
     and zsh to completions/. With `export MANPATH=$PWD/share:` the pages of share/man1 are found.\n\n\
     JSON: files (those written).")]
 pub(crate) struct Arguments {
-    /// The folder for man1/ and completions/.
+    /// Folder for man1/ and completions/.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
 }

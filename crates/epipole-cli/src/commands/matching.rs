@@ -12,27 +12,27 @@ use crate::{files, match_file, picture};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Match the features of two photographs.
+/// Match the features of two images.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole match left.jpg right.jpg -o matches.txt --png matches.png\n\
     Piped: epipole match a.jpg b.jpg -o - | epipole fit --model fundamental -\n\n\
-    The file of matches has one a line, the least ambiguous first: u1 v1 u2 v2 distance ratio. epipole fit, two-view\n\
-    and triangulate read it.\n\n\
-    JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad,\n\
-    response] each), matches ([place in keypoints1, place in keypoints2, distance, ratio] each); with --camera\n\
-    rays1 and rays2: for each keypoint the direction that it is seen in, x to the right, y down and z ahead, of length\n\
-    1, or null where the lens bends no ray to."
+    The file of matches has one match per line, least ambiguous first: u1 v1 u2 v2 distance ratio. epipole fit,\n\
+    two-view and triangulate read it.\n\n\
+    JSON: images (width and height of both), keypoints1 and keypoints2 ([u, v, scale_px, angle_rad, response]\n\
+    each), matches ([index in keypoints1, index in keypoints2, distance, ratio] each); with --camera also rays1\n\
+    and rays2: the direction of each keypoint (unit vector, x right, y down, z forward), or null where the lens\n\
+    model has no ray."
 )]
 pub(crate) struct Arguments {
-    /// The first photograph.
+    /// First image.
     first: PathBuf,
-    /// The second photograph.
+    /// Second image.
     second: PathBuf,
-    /// Write the matches; with commas if the name ends in .csv; -: standard output.
+    /// Write the matches (comma-separated if the name ends in .csv; -: standard output).
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Draw the matches (both photographs, with lines between them).
+    /// Draw the matches (both images, with lines between them).
     #[arg(long, value_name = "FILE.png")]
     png: Option<PathBuf>,
     #[command(flatten)]

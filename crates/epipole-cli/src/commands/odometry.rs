@@ -28,31 +28,31 @@ use epipole_io::trajectory::{Trajectory, TrajectoryFormat, frame_stamps_ns, writ
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
-/// Follow a camera, or a stereo rig, through its frames.
+/// Track a camera or a stereo rig through its frames.
 #[derive(Debug, Args)]
 #[command(
     mut_arg("max_features", |argument| argument.default_value(MAX_FEATURES)),
     mut_arg("max_error_px", |argument| argument.help(
-        "The largest error of a match of two frames, pixels: Sampson error of E; \"auto\" finds it for each pair from \
-         the noise of its matches"
+        "Maximum error of a match of two frames (pixels, Sampson error of E; \"auto\" finds it for each pair from \
+         the noise of its matches)"
     ).default_value("1.5")),
     mut_arg("max_registration_error_px", |argument| argument.default_value("3")),
     mut_arg("max_reprojection_error_px", |argument| argument.default_value("2")),
     mut_arg("min_angle_deg", |argument| argument.default_value("0.3")),
     mut_arg("min_start_angle_deg", |argument| argument.default_value("1")),
     after_help = "Example: epipole odometry frames/ --k 718.9,718.9,607.2,185.2\n\n\
-    Frames are taken in the order of their names, numbers as numbers. The path of a single camera has no unit of\n\
-    length; that of a rectified stereo rig has the unit of its baseline:\n  \
+    Frames are sorted by name, numbers by value. The path of a single camera has no unit of length; that of a\n\
+    rectified stereo rig has the unit of its baseline:\n  \
     epipole odometry left/ --right right/ --stereo-baseline-m 0.54 --k 718.9,718.9,607.2,185.2\n\n\
-    Where the focal length is but a guess it is refined at the end, by all frames together.\n\n\
-    The trajectory has the frames that were placed. Their times are their names where these are numbers (seconds, or\n\
-    nanoseconds), or else their numbers from 0. epipole compare and convert read it.\n\n\
-    JSON: frames (name and world_from_cam with rotation and translation, or null), keyframes and lost\n\
-    (places in that list), focal_px, focal_refined (whether it was), lens and distortion (as in the output of sfm), of\n\
+    A guessed focal length is refined at the end, from all frames together.\n\n\
+    The trajectory has the frames that were placed. Their times are their names if these are numbers (seconds or\n\
+    nanoseconds), or else their indices from 0. epipole compare and convert read it.\n\n\
+    JSON: frames (name and world_from_cam with rotation and translation, or null), keyframes and lost (indices\n\
+    into that list), focal_px, focal_refined (whether it was), lens and distortion (as in the output of sfm), of\n\
     the left camera, complete (false after Ctrl-C)."
 )]
 pub(crate) struct Arguments {
-    /// The folder of the frames; of the left camera, if there are two.
+    /// Folder of the frames (of the left camera of a stereo rig).
     #[arg(value_name = "FOLDER")]
     frames: PathBuf,
     /// Write the trajectory: EuRoC if the name ends in .csv, else TUM; -: TUM on standard output.
@@ -65,17 +65,18 @@ pub(crate) struct Arguments {
     /// distorted. Not for rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
-    /// The folder of the right camera's frames: rectified, as many, in the same order.
+    /// Folder of the right camera's frames (rectified, as many as left ones, in the same order).
     #[arg(long, value_name = "FOLDER", requires = "stereo_baseline_m")]
     right: Option<PathBuf>,
-    /// Distance of the two cameras, meters.
+    /// Distance between the cameras, meters.
     #[arg(long, value_name = "B", value_parser = positive, requires = "right")]
     stereo_baseline_m: Option<f64>,
     #[command(flatten)]
     features: FeatureArguments,
     #[command(flatten)]
     matching: MatchArguments,
-    /// Each frame is matched with so many after it, so that a bad pair costs no track; 0 for all.
+    /// Number of following frames to match each frame with, so that a bad pair breaks no track (0:
+    /// all).
     #[arg(long, default_value_t = 4, value_name = "N", help_heading = "Matches")]
     neighbors: usize,
     #[command(flatten)]
@@ -84,11 +85,11 @@ pub(crate) struct Arguments {
     accept: AcceptArguments,
     #[command(flatten)]
     refined: RefinedArguments,
-    /// Keyframes that are refined together; older ones stay.
+    /// Keyframes refined together; older ones stay fixed.
     #[arg(long, default_value_t = OdometryOptions::default().window, value_name = "N", help_heading = "Reconstruction")]
     window: usize,
-    /// Refine everything once more at the end, with what of the lens is to be refined;
-    /// --final-adjustment=false for the path as it was followed.
+    /// Refine everything at the end, including the lens parameters to refine;
+    /// --final-adjustment=false to keep the path as tracked.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, default_value_t = true, default_missing_value = "true", help_heading = "Reconstruction")]
     final_adjustment: bool,
     #[command(flatten)]

@@ -17,19 +17,19 @@ use std::path::PathBuf;
 #[command(
     after_help = "Example: epipole posegraph INTEL.g2o -o optimized.g2o\n\n\
     JSON: initial_chi2 (with --initialize after it) and final_chi2, sums of squares weighted by information\n\
-    whatever the loss, iterations, termination (why it ended), num_vertices, num_edges,\n\
+    regardless of the loss, iterations, termination (why it stopped), num_vertices, num_edges,\n\
     num_landmarks, num_priors, notes (what was left out)."
 )]
 pub(crate) struct Arguments {
-    /// A g2o file of poses; also with scales, priors of poses, and landmarks that are points.
+    /// g2o file of poses; scales, pose priors and point landmarks are read too.
     graph: PathBuf,
-    /// Place the vertices from the measurements first, wherever the file puts them.
+    /// Place the vertices from the measurements first (ignoring their poses in the file).
     #[arg(long)]
     initialize: bool,
-    /// Steps tried at most.
+    /// Maximum number of steps.
     #[arg(long, default_value_t = 100, value_name = "N")]
     max_iterations: usize,
-    /// Write the optimized graph here.
+    /// Write the optimized graph.
     #[arg(short, long, value_name = "OUT.g2o")]
     output: Option<PathBuf>,
     #[command(flatten)]

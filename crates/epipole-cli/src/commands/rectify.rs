@@ -22,14 +22,14 @@ use epipole::stereo::{PixelMap, RectifyOptions, rectify_calibrated, rectify_unca
 use nalgebra::{Matrix3, Matrix4, Point2, Translation3, UnitQuaternion};
 use std::path::PathBuf;
 
-/// Rectify two photographs, with or without known cameras.
+/// Rectify two images, with or without known cameras.
 #[derive(Debug, Args)]
 #[command(
     mut_arg("camera_file", |argument| argument.conflicts_with_all(["k", "k2", "focal_px"])),
     mut_arg("baseline_m", |argument| argument.conflicts_with("rig")),
     after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
-    Writes left.png and right.png. Without --rig, --camera, --k or --focal-px the shapes are free up\n\
-    to a projective map, and no Q is given. With --rig nothing is looked for in the photographs:\n  \
+    Writes left.png and right.png. Without --rig, --camera, --k or --focal-px shapes are known only up\n\
+    to a projective map, and there is no Q. With --rig the images are not matched:\n  \
     epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o rig.json\n  \
     epipole rectify left.jpg right.jpg --rig rig.json -o rectified\n\n\
     JSON: homography1 and homography2 (9 numbers row by row), q (16 numbers row by row, or null),\n\
@@ -37,33 +37,32 @@ use std::path::PathBuf;
     rows), files (those written)."
 )]
 pub(crate) struct Arguments {
-    /// The left photograph.
+    /// Left image.
     first: PathBuf,
-    /// The right photograph, of the same size.
+    /// Right image, of the same size.
     second: PathBuf,
     #[command(flatten)]
     camera: PairArguments,
     #[command(flatten)]
     known: CameraFile,
-    /// File of a stereo rig (of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB), for
-    /// photographs of its two cameras, left and right.
-    #[arg(long, value_name = "FILE", help_heading = "Photographs", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
+    /// Stereo rig file (of `epipole calibrate --right`, OpenCV, Kalibr or MATLAB), for images of
+    /// its left and right camera.
+    #[arg(long, value_name = "FILE", help_heading = "Images", conflicts_with_all = ["camera_file", "k", "k2", "focal_px"])]
     rig: Option<PathBuf>,
-    /// Distance of the two cameras; the unit of Q. That of --rig is in meters.
+    /// Distance between the cameras; the unit of Q. That of --rig is in meters.
     #[arg(long, default_value_t = 1.0, value_name = "B", value_parser = positive)]
     baseline_m: f64,
-    /// 0: zoom in until every pixel was photographed. 1: zoom out until all that was photographed
-    /// is seen.
-    #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "SHARE", value_parser = share)]
+    /// Zoom from 0 (every pixel of the results is valid) to 1 (every pixel of the images is
+    /// visible).
+    #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "RATIO", value_parser = share)]
     alpha: f64,
-    /// The size of the results; that of the photographs if not given. As --alpha it needs known
-    /// intrinsics.
+    /// Size of the results [default: that of the images]. Like --alpha, it needs known intrinsics.
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Center each photograph on what it shows best, so that infinity has another disparity than 0.
+    /// Center each image separately, so that the disparity of infinity need not be 0.
     #[arg(long)]
     free_infinity: bool,
-    /// The folder for the rectified photographs.
+    /// Output folder.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
     #[command(flatten)]

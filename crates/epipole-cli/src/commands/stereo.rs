@@ -30,32 +30,32 @@ enum Method {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole stereo left.png right.png --max-disparity 64 -o disparity.pfm\n\n\
-    A .pfm file holds pixels, NaN where there is no value; a .png file holds 256 times the\n\
+    A .pfm file holds disparities in pixels, NaN where there is none; a .png file holds 256 times the\n\
     disparity in 16 bits, 0 where there is none.\n\n\
-    With a Q of the rectification:\n  \
+    With the Q of a rectification:\n  \
     epipole rectify left.jpg right.jpg --rig rig.json -o rectified --json > q.json\n  \
     epipole stereo rectified/left.png rectified/right.png -o d.pfm --ply cloud.ply --q q.json\n\n\
-    JSON: width, height, density (share of pixels with a value), min_disparity_px and\n\
+    JSON: width, height, density (fraction of pixels with a value), min_disparity_px and\n\
     max_disparity_px (null if there is no value)."
 )]
 pub(crate) struct Arguments {
-    /// The left picture of a rectified pair.
+    /// Left image of a rectified pair.
     left: PathBuf,
-    /// The right one.
+    /// Right image.
     right: PathBuf,
-    /// Smallest disparity, pixels.
+    /// Minimum disparity, pixels.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(i32).range(-8192..=8191), allow_hyphen_values = true)]
     min_disparity: i32,
-    /// Largest disparity, pixels.
+    /// Maximum disparity, pixels.
     #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(i32).range(-8191..=8192), allow_hyphen_values = true)]
     max_disparity: i32,
     /// Matcher.
     #[arg(long, value_enum, default_value = "sgm")]
     method: Method,
-    /// Fill all pixels. Values come from their surroundings.
+    /// Fill all pixels (with values from their surroundings).
     #[arg(long)]
     fill: bool,
-    /// The file for the disparities, .pfm or .png.
+    /// Disparity file, .pfm or .png.
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
     #[command(flatten)]

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 const EXAMPLE: &str =
     "Example: epipole triangulate matches.txt reconstruction/ --images a.jpg,b.jpg -o points.ply";
 
-/// Triangulate matches of two images whose cameras are posed.
+/// Triangulate matches of two images with known poses.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLE,
@@ -24,8 +24,8 @@ const EXAMPLE: &str =
     Cameras are a model of COLMAP (text, binary), Bundler, nerfstudio (transforms.json) or openMVG (sfm_data.json), a\n\
     file of a stereo rig (epipole calibrate, OpenCV, Kalibr, MATLAB), whose world is the left camera, or two files\n\
     with a pose each, as epipole pnp --json prints them.\n\n\
-    A file of matches has one a line, u1 v1 u2 v2, in pixels of the two images in the order of the cameras; epipole\n\
-    match -o writes one. Each point minimizes the reprojection error.\n\n\
+    A file of matches has one match per line, u1 v1 u2 v2, in pixels of the two images in the order of the cameras;\n\
+    epipole match -o writes one. Each point minimizes the reprojection error.\n\n\
     JSON: points ([x, y, z, error_px, angle_deg] for each match: coordinates in the unit of the cameras, root mean\n\
     square of both reprojection errors, angle at which the rays meet; null where there is no point), num_points,\n\
     mean_error_px, median_angle_deg (both null without points), baseline (distance of the cameras), images (names of\n\
@@ -33,15 +33,15 @@ const EXAMPLE: &str =
     camera), files."
 )]
 pub(crate) struct Arguments {
-    /// A text file with u1 v1 u2 v2 a line; - for standard input.
+    /// Text file with u1 v1 u2 v2 per line; - for standard input.
     matches: PathBuf,
-    /// Model, rig, or camera 1 with its pose (any file of these that is read).
+    /// Model, rig, or camera 1 with its pose (any supported format).
     #[arg(value_name = "MODEL|CAMERA1")]
     cameras: PathBuf,
-    /// A file of the second camera with its pose.
+    /// File of camera 2 with its pose.
     #[arg(value_name = "CAMERA2")]
     second: Option<PathBuf>,
-    /// Names of the two images (of those of the model; without, the two that it has).
+    /// Names of the two images (of the model; optional if it has only two).
     #[arg(long, value_name = "NAME1,NAME2")]
     images: Option<String>,
     /// Write the points (.ply, or .csv with the columns of the JSON; -: CSV on standard output).

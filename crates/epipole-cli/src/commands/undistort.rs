@@ -14,36 +14,36 @@ use std::path::PathBuf;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum KeepArgument {
-    /// All that was photographed, with black borders.
+    /// All source pixels, with black borders.
     All,
-    /// Only what was photographed: no black borders, something at the edges is lost.
+    /// Only valid pixels: no black borders, but edges are lost.
     Valid,
 }
 
-/// Remove the distortion of a calibrated lens from photographs.
+/// Remove the distortion of a calibrated lens from images.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: epipole undistort photos/*.jpg --camera camera.json -o flat\n\n\
-    Writes a PNG file for each photograph, of the same size, upright. Photographs taken upright are of the same\n\
-    camera, if their files say how they were turned.\n\n\
-    JSON: files (those written), k (fx, fy, cx, cy of the new camera, as its sensor is), valid (u, v, width and\n\
-    height of the part in which every pixel was photographed)."
+    Writes an upright PNG file of the same size for each image. Images taken upright are of the same camera, if\n\
+    their EXIF data have their rotation.\n\n\
+    JSON: files (those written), k (fx, fy, cx, cy of the new camera, in the orientation of the sensor), valid\n\
+    (u, v, width and height of the part in which every pixel is valid)."
 )]
 pub(crate) struct Arguments {
-    /// Photographs of the calibrated camera, or a folder of them.
+    /// Images of the calibrated camera, or a folder of them.
     #[arg(required = true, value_name = "IMAGES")]
     photos: Vec<PathBuf>,
     /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
     /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB.
     #[arg(long, value_name = "FILE")]
     camera: PathBuf,
-    /// The photographs are by the right camera of the file.
+    /// Use the right camera of the file.
     #[arg(long)]
     right: bool,
     /// Area to keep.
     #[arg(long, value_enum, default_value = "valid")]
     keep: KeepArgument,
-    /// The folder for the result.
+    /// Output folder.
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
     #[command(flatten)]

@@ -9,44 +9,46 @@ use epipole::feature::FeatureOptions;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features of one kind")]
 pub(super) struct KindArguments {
-    /// SIFT: look for small features, in twice the size, in photographs of up to so many pixels,
-    /// and in larger ones with fewer features than --max-features; 0 for none.
+    /// SIFT: maximum number of pixels of an image that is also searched at twice its size, for
+    /// small features; larger images are only if they have fewer than --max-features without (0:
+    /// none is).
     #[arg(long, default_value_t = FeatureOptions::default().max_upsampled_pixels, value_name = "N")]
     max_upsampled_pixels: u64,
-    /// SIFT: the blur that a photograph is assumed to have, pixels, at most half of --sigma-px.
+    /// SIFT: assumed blur of the image, pixels, at most half of --sigma-px.
     #[arg(long, default_value_t = FeatureOptions::default().input_blur_px, value_name = "PX", value_parser = input_blur)]
     input_blur_px: f64,
-    /// SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4.
+    /// SIFT: blur of the first layer of an octave, pixels of that octave, 0.8 to 4.
     #[arg(long, default_value_t = FeatureOptions::default().sigma_px, value_name = "PX", value_parser = sigma)]
     sigma_px: f64,
-    /// SIFT: layers per octave in which extrema are looked for, 1 to 10.
+    /// SIFT: number of layers per octave searched for extrema, 1 to 10.
     #[arg(long, default_value_t = FeatureOptions::default().layers_per_octave, value_name = "N", value_parser = count::<1, 10>)]
     layers_per_octave: usize,
-    /// SIFT: the largest ratio of the curvatures of an extremum, above 1; edges have large ones.
+    /// SIFT: maximum ratio of the principal curvatures of an extremum, above 1 (edges have large
+    /// ratios).
     #[arg(long, default_value_t = FeatureOptions::default().edge_threshold, value_name = "R", value_parser = above_1)]
     edge_threshold: f32,
-    /// SIFT: at most so many directions at one place; each makes a feature.
+    /// SIFT: maximum number of orientations at one position, 1 to 36; each is a feature.
     #[arg(long, default_value_t = FeatureOptions::default().max_orientations, value_name = "N", value_parser = count::<1, 36>)]
     max_orientations: usize,
-    /// SIFT: a further direction needs this share of the strongest one's weight.
-    #[arg(long, default_value_t = FeatureOptions::default().orientation_peak_ratio, value_name = "SHARE", value_parser = above_0_up_to_1)]
+    /// SIFT: minimum weight of a further orientation, relative to the strongest.
+    #[arg(long, default_value_t = FeatureOptions::default().orientation_peak_ratio, value_name = "RATIO", value_parser = above_0_up_to_1)]
     orientation_peak_ratio: f32,
-    /// ORB: levels of the pyramid, 1 to 16.
+    /// ORB: number of pyramid levels, 1 to 16.
     #[arg(long, default_value_t = FeatureOptions::default().num_levels, value_name = "N", value_parser = count::<1, 16>)]
     num_levels: usize,
-    /// ORB: the size of one level over that of the next, above 1 and at most 2.
+    /// ORB: scale factor between pyramid levels, above 1 and at most 2.
     #[arg(long, default_value_t = FeatureOptions::default().scale_factor, value_name = "F", value_parser = scale_factor)]
     scale_factor: f64,
-    /// Harris: the constant k of the measure, from 0 to below 0.25.
+    /// Harris: constant k of the corner measure, from 0 to below 0.25.
     #[arg(long, default_value_t = FeatureOptions::default().harris_k, value_name = "K", value_parser = harris_k)]
     harris_k: f32,
-    /// Harris: no two corners are closer than this, pixels.
+    /// Harris: minimum distance of two corners, pixels.
     #[arg(long, default_value_t = FeatureOptions::default().min_distance_px, value_name = "PX", value_parser = not_negative)]
     min_distance_px: f64,
-    /// Harris: the side of the square over which gradients are summed, pixels, 1 to 255.
+    /// Harris: side of the square over which gradients are summed, pixels, 1 to 255.
     #[arg(long, default_value_t = FeatureOptions::default().tensor_window_px, value_name = "PX", value_parser = count::<1, 255>)]
     tensor_window_px: usize,
-    /// Harris: the side of the patch that describes a corner, pixels, 2 to 64.
+    /// Harris: side of the patch that describes a corner, pixels, 2 to 64.
     #[arg(long, default_value_t = FeatureOptions::default().patch_px, value_name = "PX", value_parser = count::<2, 64>)]
     patch_px: usize,
 }

@@ -18,10 +18,10 @@ pub(super) struct SheetArguments {
     /// 36h11.
     #[arg(long, value_name = "DICTIONARY", value_parser = dictionary, conflicts_with_all = ["pattern", "dictionary", "marker_mm", "tag_spacing"])]
     pub(super) markers: Option<MarkerDictionary>,
-    /// Number of the first marker.
+    /// ID of the first marker.
     #[arg(long, value_name = "N", default_value_t = 0, requires = "markers")]
     first_id: usize,
-    /// White gap between markers, mm (without, a quarter of their side).
+    /// White gap between markers, mm [default: a quarter of their side].
     #[arg(long, value_name = "G", value_parser = positive, requires = "markers")]
     gap_mm: Option<f64>,
 }

@@ -22,8 +22,7 @@ pub(super) enum MeshFormat {
     Glb,
     /// `mesh.obj`: text.
     Obj,
-    /// `model.html`: a page that shows cameras, points and mesh, and measures lengths, without a
-    /// network.
+    /// `model.html`: an offline page that shows cameras, points and mesh, and measures lengths.
     Html,
 }
 
@@ -33,59 +32,60 @@ pub(super) enum MeshFormat {
     after_help = EXAMPLE,
     after_long_help = "Example: epipole mvs reconstruction/ photos/ -o dense\n\n\
     The model is one of `epipole sfm`, COLMAP (text, binary), Bundler or openMVG, with observations of its points.\n\
-    They tell which photos are compared, and in which range of depths. Lens distortion is removed.\n\n\
-    Writes fused.ply, points with normals, colors and confidence, which is the number of photos that agree;\n\
-    stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/, the cameras of these maps. --mesh\n\
-    adds a surface of triangles with colors, which has holes where no photo sees it.\n\n\
-    JSON: num_images, num_depth_maps, density (share of pixels with a depth), num_points, mean_views (photos that\n\
-    agree on a point, on average), images (name, width, height, num_neighbors, density, min_depth and max_depth of\n\
-    each depth map, null if it is empty), file; with --mesh also num_triangles, num_vertices, mesh (its file)."
+    The observations determine which photos are compared, and the range of depths. Lens distortion is removed.\n\n\
+    Writes fused.ply (points with normals, colors and confidence, the number of photos that agree),\n\
+    stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/ (the cameras of these maps). --mesh\n\
+    adds a colored surface of triangles, with holes where no photo sees it.\n\n\
+    JSON: num_images, num_depth_maps, density (fraction of pixels with a depth), num_points, mean_views (mean\n\
+    number of photos that agree on a point), images (name, width, height, num_neighbors, density, min_depth and\n\
+    max_depth of each depth map, null if it is empty), file; with --mesh also num_triangles, num_vertices, mesh\n\
+    (its file)."
 )]
 pub(crate) struct Arguments {
-    /// A file or folder with a model.
+    /// File or folder of a model.
     pub(super) model: PathBuf,
     /// Folder of its images [default: images/, in the model or above it].
     pub(super) images: Option<PathBuf>,
-    /// The folder for the result.
+    /// Output folder.
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
-    /// Limit the longer side of the images.
+    /// Limit the longer side of the images (pixels).
     #[arg(long, value_name = "PX", default_value_t = default().max_size_px, value_parser = clap::value_parser!(u32).range(32..=16384))]
     pub(super) max_size: u32,
     /// Number of neighbors of each photo.
     #[arg(long, value_name = "N", default_value_t = default().num_neighbors)]
     num_neighbors: usize,
-    /// Number of these that count at a pixel, those that fit best.
+    /// Number of best-fitting neighbors that count at a pixel.
     #[arg(long, value_name = "N", default_value_t = default().num_best_neighbors)]
     num_best_neighbors: usize,
-    /// Photos that must agree on a depth.
+    /// Minimum number of photos that agree (on a depth).
     #[arg(long, value_name = "N", default_value_t = default().min_views)]
     min_views: usize,
-    /// Smallest angle between the rays of photos that are compared, degrees.
+    /// Minimum angle between rays of compared photos, degrees.
     #[arg(long, value_name = "DEG", default_value_t = default().min_angle_deg, value_parser = number)]
     min_angle_deg: f64,
     /// Number of rounds of propagation at each resolution after the coarsest.
     #[arg(long, value_name = "N", default_value_t = default().num_rounds)]
     num_rounds: usize,
-    /// Smallest correlation of patches at a depth, -1 to 1.
+    /// Minimum correlation of patches at a depth, -1 to 1.
     #[arg(long, value_name = "C", default_value_t = default().min_correlation, value_parser = number, allow_hyphen_values = true)]
     min_correlation: f64,
-    /// Largest reprojection error between photos that agree, pixels.
+    /// Maximum reprojection error between photos that agree, pixels.
     #[arg(long, value_name = "PX", default_value_t = default().max_reprojection_error_px, value_parser = positive)]
     max_reprojection_error_px: f64,
-    /// Largest difference of depths between photos that agree, relative.
-    #[arg(long, value_name = "SHARE", default_value_t = default().max_depth_difference, value_parser = positive)]
+    /// Maximum relative difference of depths between photos that agree.
+    #[arg(long, value_name = "RATIO", default_value_t = default().max_depth_difference, value_parser = positive)]
     max_depth_difference: f64,
-    /// Largest angle between the normals of photos that agree, degrees.
+    /// Maximum angle between the normals of photos that agree, degrees.
     #[arg(long, value_name = "DEG", default_value_t = default().max_normal_angle_deg, value_parser = positive)]
     max_normal_angle_deg: f64,
     /// Also write a mesh of triangles.
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(super) mesh: Option<MeshFormat>,
-    /// Edge of a voxel of the mesh, in the unit of the model [default: 1.5 pixels].
+    /// Edge length of a voxel, in the unit of the model [default: 1.5 pixels].
     #[arg(long, value_name = "SIZE", value_parser = positive, requires = "mesh")]
     voxel_size: Option<f64>,
-    /// Fewest triangles of a connected piece of the mesh.
+    /// Minimum number of triangles of a connected component.
     #[arg(long, value_name = "N", default_value_t = MeshOptions::default().min_triangles, requires = "mesh")]
     min_triangles: usize,
     #[command(flatten)]

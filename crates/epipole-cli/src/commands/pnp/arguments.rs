@@ -19,20 +19,21 @@ const EXAMPLE: &str = "Example: epipole pnp points.txt --k 800,800,320,240";
     mut_arg("max_error_px", |argument| argument.default_value(PHOTO_MAX_ERROR)),
     after_help = EXAMPLE,
     after_long_help = "Example: epipole pnp points.txt --k 800,800,320,240\n\n\
-    A file of points has one a line, x y z u v: a point of the world, in any unit, and the pixel where it is seen.\n\
-    A first line of these names allows any order, one of four numbers is skipped; # begins a comment. Numbers may stand between commas, semicolons,\n\
-    tabs or spaces, with decimal commas only between semicolons or tabs.\n\n\
-    With --focal-px unknown four points are enough, also on a plane that does not face the camera. Up to five points\n\
-    with a known camera, or four with an unknown focal length, are all taken as right.\n\n\
-    Small or distant planes have two poses that fit equally: the other is among the alternatives.\n\n\
-    The JSON is a camera file with a pose, which epipole triangulate reads: image, k and distortion as in those of\n\
-    epipole calibrate, cam_from_world (rotation and translation, in the unit of the points). Further center (of the camera, in the world),\n\
-    inliers (1 or 0 for each row), num_inliers, mean_error_px (of the inliers), max_error_px (that of the options, or\n\
-    with auto the one found), focal_px (where it was unknown, else null), focal_std_px (its standard deviation, or\n\
-    null), alternatives (other poses that fit as well: cam_from_world, center, mean_error_px, focal_px each)."
+    A file of points has one point per line, x y z u v: a point of the world, in any unit, and its pixel. A header\n\
+    with these names allows any order; a first line of four numbers is skipped; # begins a comment. Numbers are\n\
+    separated by commas, semicolons, tabs or spaces; decimal commas work only with semicolons or tabs.\n\n\
+    With --focal-px unknown, four points are enough, also on a plane that does not face the camera. Up to five\n\
+    points with a known camera, or four with an unknown focal length, are all assumed to be inliers.\n\n\
+    Small or distant planes have two poses that fit equally well; the second is among the alternatives.\n\n\
+    The JSON is a camera file with a pose, which epipole triangulate reads: image, k and distortion as in those\n\
+    of epipole calibrate, cam_from_world (rotation and translation, in the unit of the points). It also has\n\
+    center (of the camera, in the world), inliers (1 or 0 for each row), num_inliers, mean_error_px (of the\n\
+    inliers), max_error_px (as given, or as found by auto), focal_px (if it was unknown, else null), focal_std_px\n\
+    (its standard deviation, or null), alternatives (other poses that fit as well: cam_from_world, center,\n\
+    mean_error_px, focal_px each)."
 )]
 pub(crate) struct Arguments {
-    /// A text file with x y z u v a line; - for standard input.
+    /// Text file with x y z u v per line; - for standard input.
     pub(super) points: PathBuf,
     /// Focal lengths and principal point in pixels.
     #[arg(long, value_name = "fx,fy,cx,cy", value_parser = intrinsics, allow_hyphen_values = true)]
@@ -43,7 +44,7 @@ pub(crate) struct Arguments {
     /// Focal length in pixels, or "unknown". The principal point is that of --center or --size.
     #[arg(long, value_name = "F|unknown", value_parser = focal)]
     focal_px: Option<Focal>,
-    /// Size of the image. Its middle is the principal point unless --k gives it.
+    /// Size of the image. Its center is the principal point unless --k or --center gives it.
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, conflicts_with = "camera")]
     size: Option<(u32, u32)>,
     /// Principal point in pixels.

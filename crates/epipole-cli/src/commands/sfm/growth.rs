@@ -21,22 +21,23 @@ enum Lenses {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(crate) struct AcceptArguments {
-    /// Fewest photographs that must see a point which is kept.
+    /// Minimum number of images that see a point.
     #[arg(long, default_value_t = SfmOptions::default().min_track_length, value_name = "N")]
     min_track_length: usize,
-    /// Fewest matches that connect two photographs, and fewest points that place one.
+    /// Minimum number of matches that connect two images, and of points that register one.
     #[arg(long, default_value_t = SfmOptions::default().min_num_inliers, value_name = "N")]
     min_inliers: usize,
-    /// The smallest angle under which a point must be seen, degrees.
+    /// Minimum triangulation angle of a point, degrees.
     #[arg(long, default_value_t = SfmOptions::default().min_angle_deg, value_name = "DEG", value_parser = positive)]
     min_angle_deg: f64,
-    /// The median angle that the two first photographs should have, degrees; less if none have it.
+    /// Minimum median triangulation angle of the two first images, degrees; lowered if no pair has
+    /// it.
     #[arg(long, default_value_t = SfmOptions::default().min_start_angle_deg, value_name = "DEG", value_parser = positive)]
     min_start_angle_deg: f64,
-    /// The largest reprojection error of a point that helps to place a photograph, pixels.
+    /// Maximum reprojection error of a point when an image is registered, pixels.
     #[arg(long, default_value_t = SfmOptions::default().max_registration_error_px, value_name = "PX", value_parser = positive)]
     max_registration_error_px: f64,
-    /// The largest reprojection error that is kept, pixels.
+    /// Maximum reprojection error of an observation, pixels.
     #[arg(long, default_value_t = SfmOptions::default().max_reprojection_error_px, value_name = "PX", value_parser = positive)]
     max_reprojection_error_px: f64,
 }
@@ -60,9 +61,9 @@ impl AcceptArguments {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
-    /// Which photographs share a lens, and with it what is refined: all ("one"), those of equal
-    /// size and focal length ("alike"), or none ("each"). Those of --camera share none with others,
-    /// nor with those that were turned otherwise.
+    /// Images that share a lens. With it they share its refined parameters: all ("one"), those of
+    /// equal size and focal length ("alike"), or none ("each"). Images of --camera share no lens
+    /// with others, nor with images of another rotation.
     #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
     lenses: Lenses,
     #[command(flatten)]

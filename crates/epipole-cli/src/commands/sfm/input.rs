@@ -18,25 +18,25 @@ use std::path::PathBuf;
 /// Photographs and cameras.
 #[derive(Debug, Args)]
 pub(super) struct InputArguments {
-    /// Photographs, or a folder of them.
+    /// Images, or a folder of them.
     #[arg(required = true, value_name = "FILES|FOLDER")]
     pub(super) photos: Vec<PathBuf>,
     #[command(flatten)]
     camera: CameraArguments,
-    /// Focal lengths of all photographs in their order, pixels of their files, with commas; "-" for
-    /// one that is to be told by --camera, by its EXIF data, or to be guessed.
+    /// Focal length of each image, pixels of its file, in order and separated by commas; "-" for
+    /// one from --camera or EXIF data, or for a guess.
     #[arg(long, value_name = "F,F,…", value_delimiter = ',', value_parser = focal, allow_hyphen_values = true, conflicts_with_all = ["k", "focal_px"])]
     focals_px: Vec<Focal>,
     /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
-    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size or turned by 90°.
-    /// Images stay distorted, and cameras.txt has the lens.
+    /// ORB-SLAM, COLMAP, nerfstudio, Metashape or MATLAB, for images of its size, also rotated by
+    /// 90°. Images stay distorted, and cameras.txt has the lens.
     #[arg(long = "camera", value_name = "FILE", conflicts_with = "k")]
     camera_file: Option<PathBuf>,
     /// Undistort the images of --camera first. cameras.txt then has pinhole cameras, for programs
-    /// that know no others. The border of a fisheye is lost.
+    /// that support no others. The border of a fisheye image is lost.
     #[arg(long, requires = "camera_file")]
     undistort: bool,
-    /// Take cameras and poses from a model, by the names of its images, and only find points.
+    /// Take cameras and poses from a model, matched by image names, and only find points.
     #[arg(long, value_name = "MODEL", conflicts_with_all = ["k", "focal_px", "focals_px", "camera_file", "images",
         "positions", "lenses", "refine_focal", "keep_focal", "refine_principal_point", "refine_distortion",
         "refine_tangential"])]

@@ -15,16 +15,17 @@ use std::path::Path;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Positions")]
 pub(super) struct PositionArguments {
-    /// Positions of the photos. A file of lines NAME X Y Z in meters, with a standard deviation
-    /// behind if it is another than --position-sigma-m; or "exif" for what the photographs say.
-    /// Three that are not on one line give the result their frame and meters; some may be wrong.
+    /// Positions of the images. A file of lines NAME X Y Z in meters, optionally followed by a
+    /// standard deviation that overrides --position-sigma-m; or "exif" for positions from EXIF
+    /// data. Three positions that are not on one line give the result their frame and meters; some
+    /// may be wrong.
     #[arg(long, value_name = "FILE|exif")]
     positions: Option<String>,
     /// The file has NAME LATITUDE LONGITUDE HEIGHT, in degrees and meters (WGS 84). Results are in
-    /// meters to the east, to the north and up from the first photograph whose place is known.
+    /// meters east, north and up of the first image with a known position.
     #[arg(long, requires = "positions")]
     geodetic: bool,
-    /// Standard deviation of positions that do not say it, meters.
+    /// Standard deviation of positions that have none, meters.
     #[arg(long, default_value_t = 5.0, value_name = "M", value_parser = positive)]
     position_sigma_m: f64,
 }

@@ -9,21 +9,20 @@ use epipole::sfm::SfmOptions;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(crate) struct RefinedArguments {
-    /// Refine the focal length (one factor of each lens, also where it is known).
+    /// Refine the focal length (one factor per lens, even if it is known).
     #[arg(long)]
     refine_focal: bool,
-    /// Keep the focal lengths and the distortion even where they are guesses.
+    /// Keep focal lengths and distortion, even if they are guesses.
     #[arg(long, conflicts_with = "refine_focal")]
     keep_focal: bool,
-    /// Refine where the principal points are, one shift for each lens.
+    /// Refine the principal points, one shift per lens.
     #[arg(long)]
     refine_principal_point: bool,
-    /// Refine the radial distortion of each lens: two terms, of a rational lens six, of a fisheye
-    /// four, of the division model its one.
+    /// Refine the radial distortion of each lens (two terms; rational six, fisheye four, division
+    /// one).
     #[arg(long)]
     refine_distortion: bool,
-    /// Refine two terms of tangential distortion for each lens; fisheyes and the division model
-    /// have none.
+    /// Refine the tangential distortion of each lens (two terms; fisheye and division have none).
     #[arg(long)]
     refine_tangential: bool,
 }

@@ -14,26 +14,26 @@ use std::path::PathBuf;
 /// Geometry of the rectified pair.
 #[derive(Debug, Args)]
 pub(super) struct CloudArguments {
-    /// Also write the points as a colored cloud; needs --q, or --focal-px and --baseline-m.
+    /// Also write a colored point cloud; needs --q, or --focal-px and --baseline-m.
     #[arg(long, value_name = "CLOUD.ply")]
     ply: Option<PathBuf>,
     /// Focal length, pixels.
     #[arg(long, value_name = "F", value_parser = positive)]
     focal_px: Option<f64>,
-    /// Distance of the two cameras, meters.
+    /// Distance between the cameras, meters.
     #[arg(long, value_name = "B", value_parser = positive)]
     baseline_m: Option<f64>,
-    /// Column of the left principal point, pixels [default: the middle].
+    /// Column of the left principal point, pixels [default: the center].
     #[arg(long, value_name = "PX", value_parser = number, allow_hyphen_values = true, requires = "ply")]
     cx: Option<f64>,
-    /// Row of the principal points, pixels [default: the middle].
+    /// Row of the principal points, pixels [default: the center].
     #[arg(long, value_name = "PX", value_parser = number, allow_hyphen_values = true, requires = "ply")]
     cy: Option<f64>,
     /// Column of the right principal point minus that of the left, pixels: doffs of Middlebury.
     #[arg(long, value_name = "PX", default_value_t = 0.0, value_parser = number, allow_hyphen_values = true, requires = "ply")]
     doffs: f64,
-    /// File with Q: what `epipole rectify --json` printed, an OpenCV file, 16 numbers row by row,
-    /// or `calib.txt` of Middlebury or KITTI. The unit of the cloud is that of the file.
+    /// File with Q: output of `epipole rectify --json`, an OpenCV file, 16 numbers row by row, or
+    /// `calib.txt` of Middlebury or KITTI. The cloud has the unit of the file.
     #[arg(long, value_name = "FILE", requires = "ply", conflicts_with_all = ["focal_px", "baseline_m", "cx", "cy", "doffs"])]
     q: Option<PathBuf>,
 }

@@ -9,7 +9,7 @@ use epipole::stereo::{
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Cost {
-    /// The census transform over 5×5 pixels: immune to a change of brightness or contrast.
+    /// Census transform over 5×5 pixels: immune to changes of brightness or contrast.
     Census,
     /// Differences of gray values, insensitive to sampling (Birchfield–Tomasi).
     BirchfieldTomasi,
@@ -19,32 +19,32 @@ enum Cost {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Prefilter {
-    /// The horizontal Sobel derivative.
+    /// Horizontal Sobel derivative.
     XSobel,
-    /// The difference to the mean of the 9×9 pixels around.
+    /// Difference from the mean of the surrounding 9×9 pixels.
     LocalMean,
 }
 
-/// Which answers are kept, whichever way they were found.
+/// Filter options of both matchers.
 #[derive(Debug, Clone, Copy, Args)]
-#[command(next_help_heading = "Answers that are kept")]
+#[command(next_help_heading = "Filters")]
 pub(super) struct KeepArguments {
-    /// Percent by which other disparities must be worse, 0 to 99; 0: no such test [default: 3 for
-    /// SGM, 10 for BM].
+    /// Minimum percentage by which other disparities must be worse, 0 to 99; 0: no test [default: 3
+    /// for SGM, 10 for BM].
     #[arg(long, value_name = "PERCENT", value_parser = clap::value_parser!(u32).range(..100))]
     uniqueness_percent: Option<u32>,
-    /// The largest difference between the disparities seen from the left and from the right,
-    /// pixels; "any": no such test.
+    /// Maximum difference between the disparities of the left and the right image, pixels; "any":
+    /// no test.
     #[arg(long, default_value = "1", value_name = "PX|any", value_parser = left_right)]
     left_right_max_px: LeftRight,
-    /// Answers that hang together in fewer pixels than this are removed.
+    /// Minimum size of a connected region, pixels; smaller ones are removed.
     #[arg(long, default_value_t = DisparityFilter::default().speckle_size, value_name = "N")]
     speckle_size: u32,
-    /// Neighbors whose disparities differ by no more than this hang together, pixels.
+    /// Maximum difference of disparity between connected neighbors, pixels.
     #[arg(long, default_value_t = f64::from(DisparityFilter::default().speckle_range_px), value_name = "PX", value_parser = not_negative)]
     speckle_range_px: f64,
-    /// The longest gap that is closed where the answers at its ends hang together, pixels [default:
-    /// 16 for SGM, 0 for BM].
+    /// Maximum length of a gap that is closed if the disparities at its ends would connect, pixels
+    /// [default: 16 for SGM, 0 for BM].
     #[arg(long, value_name = "PX")]
     max_gap_px: Option<u32>,
 }
@@ -73,27 +73,27 @@ fn left_right(text: &str) -> Result<LeftRight, String> {
     }
 }
 
-/// Of semi-global matching.
+/// Options of semi-global matching.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Semi-global matching")]
 pub(super) struct SgmArguments {
     /// Matching cost [default: both].
     #[arg(long, value_enum)]
     cost: Option<Cost>,
-    /// The largest cost of a difference of gray values, 1 to 63 [default: 30].
+    /// Maximum cost of a difference of gray values, 1 to 63 [default: 30].
     #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
     gray_cap: Option<u8>,
-    /// Directions that smoothness is asked for in: 4, 5 or 8 [default: 8].
+    /// Number of directions of smoothness: 4, 5 or 8 [default: 8].
     #[arg(long, value_name = "N", value_parser = paths)]
     paths: Option<StereoPaths>,
-    /// The penalty for a change of disparity by one between neighbors [default: 20].
+    /// Penalty for a change of disparity by one between neighbors [default: 20].
     #[arg(long, value_name = "P1")]
     small_step_penalty: Option<u8>,
-    /// The penalty for a larger change: at least the small one, at most 150 [default: 100].
+    /// Penalty for a larger change, at least the small penalty and at most 150 [default: 100].
     #[arg(long, value_name = "P2")]
     large_step_penalty: Option<u8>,
-    /// The difference of gray values between neighbors that halves the penalty of a large change;
-    /// 0: none does [default: 10].
+    /// Difference of gray values between neighbors that halves the penalty of a large change; 0:
+    /// never [default: 10].
     #[arg(long, value_name = "GRAY")]
     edge_gray: Option<u8>,
 }
@@ -107,11 +107,11 @@ fn paths(text: &str) -> Result<StereoPaths, String> {
     }
 }
 
-/// Of block matching.
+/// Options of block matching.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Block matching")]
 pub(super) struct BmArguments {
-    /// The side of the window, pixels, odd [default: 15].
+    /// Side of the window, pixels, odd [default: 15].
     #[arg(long, value_name = "PX")]
     window_px: Option<u32>,
     /// Prefilter [default: x-sobel].
@@ -120,7 +120,7 @@ pub(super) struct BmArguments {
     /// Limit of the prefiltered values, 1 to 63 [default: 31].
     #[arg(long, value_name = "GRAY", value_parser = clap::value_parser!(u8).range(1..=63))]
     prefilter_cap: Option<u8>,
-    /// The smallest mean over a window of what is compared in the left picture; 0: no such test
+    /// Minimum mean magnitude of prefiltered values over a window of the left image; 0: no test
     /// [default: 0.5].
     #[arg(long, value_name = "GRAY", value_parser = not_negative)]
     min_texture: Option<f64>,

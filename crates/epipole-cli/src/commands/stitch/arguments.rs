@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// Model that the photos share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Model {
-    /// A place: the camera only turned.
+    /// One viewpoint: the camera only rotates.
     Rotation,
     /// A plane, such as a wall or a page; the camera may move.
     Homography,
@@ -32,9 +32,9 @@ enum Projection {
 /// Blending where photos overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Blending {
-    /// Coarse and fine details apart.
+    /// Coarse and fine details separately (multi-band).
     Bands,
-    /// Means by the distance to the border.
+    /// Average weighted by distance to the border.
     Feather,
     /// None.
     Seams,
@@ -42,24 +42,25 @@ enum Blending {
 
 const EXAMPLE: &str = "Example: epipole stitch left.jpg middle.jpg right.jpg -o panorama.jpg";
 
-/// Join photos from one place, or of one plane, to one picture.
+/// Stitch photos from one viewpoint, or of one plane.
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLE,
     after_long_help = "Example: epipole stitch left.jpg middle.jpg right.jpg -o panorama.jpg\n\n\
-    All photos share one focal length, that of --k, --focal-px or --camera, or else one that is found from the matches.\n\
-    Photos that overlap no other are left out. Where the camera moved between two photos, near things do not fit.\n\n\
-    JSON: width, height, focal_px (of the panorama; null with --model homography), files, num_stitched, mean_error_px\n\
-    (of the matches that agree), photos (name; rotation: from the frame of the panorama, which looks along z with y\n\
-    down, to the camera, 9 numbers row by row, null with --model homography; pixel_from_direction: from a direction of\n\
-    the panorama to a pixel, 9 numbers; null for those that are left out), overlaps (names, num_matches, num_inliers,\n\
-    mean_error_px, parallax: whether the camera moved)."
+    All photos share one focal length, that of --k, --focal-px or --camera, or else one estimated from the\n\
+    matches. Photos that overlap no other are left out. Where the camera moved between two photos, near objects\n\
+    do not fit.\n\n\
+    JSON: width, height, focal_px (of the panorama; null with --model homography), files, num_stitched,\n\
+    mean_error_px (of the matches that agree), photos (name; rotation: from the frame of the panorama (y down, z\n\
+    forward) to the camera, 9 numbers row by row, null with --model homography; pixel_from_direction: from a\n\
+    direction of the panorama to a pixel, 9 numbers; both null for photos left out), overlaps (names,\n\
+    num_matches, num_inliers, mean_error_px, parallax: whether the camera moved)."
 )]
 pub(crate) struct Arguments {
     /// Photos, or folders of them.
     #[arg(required = true, value_name = "PHOTO")]
     pub(super) photos: Vec<PathBuf>,
-    /// The .png or .jpg file to write.
+    /// Output file, .png or .jpg.
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: PathBuf,
     /// Model that the photos share.
@@ -69,13 +70,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     projection: Option<Projection>,
     /// Blending where photos overlap.
-    #[arg(long, value_enum, default_value = "bands", help_heading = "Picture")]
+    #[arg(long, value_enum, default_value = "bands", help_heading = "Panorama")]
     blend: Blending,
     /// Keep the exposures of the photos.
-    #[arg(long, help_heading = "Picture")]
+    #[arg(long, help_heading = "Panorama")]
     keep_exposures: bool,
-    /// A larger picture is downscaled to M megapixels.
-    #[arg(long, value_name = "M", value_parser = positive, default_value_t = 100.0, help_heading = "Picture")]
+    /// Downscale the panorama to at most M megapixels.
+    #[arg(long, value_name = "M", value_parser = positive, default_value_t = 100.0, help_heading = "Panorama")]
     max_output_megapixels: f64,
     #[command(flatten)]
     pub(super) camera: CameraArguments,
