@@ -1,4 +1,4 @@
-//! The intrinsics of photographs: given on the command line, or guessed.
+//! Intrinsics of photos: given on the command line, or guessed.
 
 use crate::failure::Failure;
 use crate::matrices::{intrinsics, positive};
@@ -35,8 +35,8 @@ impl CameraArguments {
         }
     }
 
-    /// The intrinsics given, or else a guess from the photograph's own data, or else the field of
-    /// view of a usual lens.
+    /// Returns the given intrinsics, or those of the calibrated camera, or else a guess from EXIF
+    /// data or from the field of view of a usual lens.
     ///
     /// # Errors
     /// As [`Intrinsics::centered`].
@@ -75,10 +75,10 @@ impl PairArguments {
         self.camera.focal_px.is_some()
     }
 
-    /// Refuses intrinsics of the second camera alone, which nothing could be done with.
+    /// Refuses intrinsics of the second camera alone.
     ///
     /// # Errors
-    /// A sentence that says what is missing.
+    /// A failure that names the missing option.
     pub(crate) fn check(&self) -> Result<(), Failure> {
         if self.k2.is_some() && !self.is_given() {
             return Err(Failure::usage(
@@ -88,10 +88,11 @@ impl PairArguments {
         Ok(())
     }
 
-    /// The intrinsics given, if any; a focal length has the middle of each photograph.
+    /// Returns the given intrinsics, if any. With only a focal length, the principal point is the
+    /// center of each photo.
     ///
     /// # Errors
-    /// A sentence if one principal point is given for photographs of different sizes; as
+    /// If one principal point is given for photographs of different sizes; as
     /// [`Intrinsics::centered`].
     pub(crate) fn given(&self, photos: &[Photo; 2]) -> Result<Option<[Intrinsics; 2]>, Failure> {
         let sizes = photos.each_ref().map(|photo| photo.full_size);
@@ -111,7 +112,7 @@ impl PairArguments {
         Ok(first.zip(second).map(|(k1, k2)| [k1, k2]))
     }
 
-    /// The intrinsics given, or else a guess for each photograph, with a sentence that says so.
+    /// Returns the given intrinsics, or else a guess for each photo with a warning.
     ///
     /// # Errors
     /// As [`PairArguments::given`].
@@ -129,7 +130,7 @@ impl PairArguments {
     }
 }
 
-/// A focal length that nobody gave.
+/// A guessed focal length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Guess {
     focal_px: f64,
@@ -138,7 +139,7 @@ pub(crate) struct Guess {
     focal_mm: Option<f64>,
 }
 
-/// Whether some photographs say nothing of their focal length.
+/// Returns whether a guess is not from EXIF data.
 pub(crate) fn some_unknown(guesses: &[Guess]) -> bool {
     guesses.iter().any(|guess| !guess.from_exif)
 }
@@ -176,8 +177,8 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     ))
 }
 
-/// The intrinsics of a photograph whose focal length was given, in pixels of its file: the
-/// principal point is that of its calibrated camera, or else the middle.
+/// Returns the intrinsics of a photo for a focal length in pixels of its file. The principal point
+/// is that of its calibrated camera, or else the center.
 ///
 /// # Errors
 /// As [`Intrinsics::centered`].
@@ -190,7 +191,7 @@ pub(crate) fn of_focal(focal_px: f64, photo: &Photo) -> Result<Intrinsics, Failu
     Ok(Intrinsics::new(focal_px, focal_px, center.x, center.y)?)
 }
 
-/// The intrinsics of a camera whose principal point is the middle of the photograph.
+/// Returns intrinsics with the principal point at the center of the photo.
 ///
 /// # Errors
 /// As [`Intrinsics::centered`].

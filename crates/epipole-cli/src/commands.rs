@@ -1,4 +1,4 @@
-//! The commands, one a file. A new command is a file here and a line in [`Command`].
+//! The commands, one per file. A new command needs a file here and a variant of [`Command`].
 
 mod ba;
 mod board;

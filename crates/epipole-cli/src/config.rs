@@ -1,6 +1,6 @@
 //! Options from a TOML file (`--config`), and the options of a command as TOML (`--dump-config`).
 //!
-//! Keys before the first table are for every command, a table `[sfm]` is for one.
+//! Keys before the first table apply to every command, those of a table `[sfm]` to one.
 
 use crate::failure::Failure;
 use crate::files;
@@ -15,13 +15,13 @@ use toml::{Table, Value};
 /// Identifiers of options that a file cannot set.
 const NOT_IN_FILES: [&str; 4] = ["config", "dump_config", "help", "version"];
 
-/// Adds the options of the `--config` file to a command line, except those that the command line
-/// sets or excludes.
+/// Adds the options of the `--config` file to a command line, except those that the line sets or
+/// excludes.
 ///
 /// * `command`: built
 ///
 /// # Errors
-/// A sentence that names the file and the key.
+/// A failure that names the file and the key.
 pub(crate) fn with_file(
     command: &Command,
     mut arguments: Vec<OsString>,
@@ -52,10 +52,10 @@ pub(crate) fn with_file(
     Ok(arguments)
 }
 
-/// Matches of a command line, also where required arguments are missing.
+/// Parses a command line, even if required arguments are missing.
 ///
 /// # Errors
-/// Help and version, which are no matches.
+/// Help and version.
 pub(crate) fn partial_matches(
     command: &Command,
     arguments: &[OsString],
@@ -64,8 +64,7 @@ pub(crate) fn partial_matches(
     command.try_get_matches_from(arguments)
 }
 
-/// All options of a command as TOML, in a form that `--config` reads. Options without a value are
-/// comments.
+/// Writes all options of a command as TOML for `--config`. Options without a value become comments.
 ///
 /// # Errors
 /// A value that is not Unicode.
@@ -97,7 +96,7 @@ pub(crate) fn dump(command: &Command, matches: &ArgMatches) -> Result<String, Fa
     Ok(text)
 }
 
-/// Options that a file can set.
+/// Returns the options that a file can set.
 fn settable(command: &Command) -> impl Iterator<Item = &Arg> {
     let is_settable = |argument: &&Arg| {
         argument.get_long().is_some() && !NOT_IN_FILES.contains(&argument.get_id().as_str())
@@ -127,7 +126,7 @@ fn value(argument: &Arg, matches: &ArgMatches) -> Result<Option<Value>, Failure>
     })
 }
 
-/// A number or a truth value where TOML writes it as the command line does, else a string.
+/// Converts text to a TOML number or boolean if TOML spells it the same, else to a string.
 fn scalar(argument: &Arg, text: &OsStr) -> Result<Value, Failure> {
     let text = text.to_str().ok_or_else(|| {
         let name = argument.get_long().unwrap_or_default();
@@ -242,7 +241,7 @@ fn option(
     values.iter().map(with_value).collect()
 }
 
-/// Tells a wrong value of a file from one of the command line.
+/// Checks the values of the file separately, so that an error names the file.
 fn check(command: &Command, name: &str, added: &[OsString]) -> Result<(), Failure> {
     let mut alone: Vec<OsString> = vec!["epipole".into(), name.into()];
     alone.extend_from_slice(added);
@@ -277,7 +276,7 @@ mod tests {
         path
     }
 
-    /// The command line with the options of a file, or what is wrong with them.
+    /// Returns the command line with the options of a file, or the error.
     fn merged(name: &str, text: &str, line: &str) -> Result<Vec<String>, String> {
         let path = file(name, text);
         let mut arguments: Vec<OsString> = line.split(' ').map(OsString::from).collect();

@@ -1,4 +1,4 @@
-//! Content of a file or folder of another program: a model, cameras or a trajectory.
+//! Content of a file or folder: a model, cameras or a trajectory.
 
 use crate::failure::Failure;
 use crate::{files, model};
@@ -17,11 +17,11 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// Reads a folder as a model, and a file, or standard input for `-`, as the first that fits of
-    /// a model, cameras and a trajectory.
+    /// Reads a folder as a model; reads a file, or standard input for `-`, as the first of model,
+    /// cameras and trajectory that fits.
     ///
     /// # Errors
-    /// A sentence that names the path and why it is none of them.
+    /// A failure that names the path and why it is none of them.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         if path.is_dir() {
             return model::read(path).map(Self::Model);
@@ -29,10 +29,10 @@ impl Content {
         Self::of_bytes(path, &files::read_bytes(path)?)
     }
 
-    /// As [`read`](Self::read), for a file with these bytes.
+    /// Reads the bytes of a file, as [`read`](Self::read).
     ///
     /// # Errors
-    /// As [`read`](Self::read). What the file is by its first words is what its error is about.
+    /// As [`read`](Self::read). The error is about the format that the first words suggest.
     pub(crate) fn of_bytes(path: &Path, bytes: &[u8]) -> Result<Self, Failure> {
         let of_model = match model::of_file(path, bytes) {
             Ok(read) => return Ok(Self::Model(read)),
@@ -53,7 +53,7 @@ impl Content {
             return Err(of_model);
         }
         let about = |error: Error| Err(Failure::from(error).about(path));
-        // A tree that ends early has no keys to tell it by, but a name.
+        // A truncated tree has no keys to recognize, only its extension.
         let is_tree = path.extension().is_some_and(|ending| {
             ["yml", "yaml", "xml", "json"]
                 .iter()

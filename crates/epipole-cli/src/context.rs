@@ -1,9 +1,9 @@
 //! Settings shared by all commands.
 
-/// The global options that commands use.
+/// Global options that commands use.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context {
-    /// No progress and no warnings.
+    /// Whether progress and warnings are suppressed.
     pub(crate) quiet: bool,
     /// Seed of every random choice.
     #[allow(
@@ -14,7 +14,7 @@ pub(crate) struct Context {
 }
 
 impl Context {
-    /// Tells the user something that does not stop the work.
+    /// Prints a warning, unless `--quiet`.
     pub(crate) fn warn(&self, sentence: &str) {
         if !self.quiet {
             eprintln!("warning: {sentence}");

@@ -1,9 +1,9 @@
-//! Why a command could not do its work.
+//! Failures of commands.
 
 use std::fmt;
 use std::process::ExitCode;
 
-/// A kind that scripts can test and a sentence that people can read.
+/// A failure: a kind for scripts and a message for people.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Failure {
     pub(crate) kind: &'static str,
@@ -18,7 +18,7 @@ impl Failure {
         }
     }
 
-    /// The same failure, naming the file that it is about.
+    /// Adds the file to the message.
     pub(crate) fn about(self, path: &std::path::Path) -> Self {
         Self {
             message: format!("{}: {}", path.display(), self.message),
@@ -26,17 +26,17 @@ impl Failure {
         }
     }
 
-    /// Options that do not go together, or that only the file itself shows to be wrong.
+    /// Wrong usage: conflicting options, or options that do not fit a file.
     pub(crate) fn usage(message: impl Into<String>) -> Self {
         Self::new("usage", message)
     }
 
-    /// 2 for wrong usage, 1 for what could not be done.
+    /// Returns 2 for wrong usage, else 1.
     pub(crate) fn exit_code(&self) -> ExitCode {
         ExitCode::from(if self.kind == "usage" { 2 } else { 1 })
     }
 
-    /// `{"error": {"kind", "message"}}`.
+    /// Returns `{"error": {"kind", "message"}}`.
     pub(crate) fn to_json(&self) -> String {
         let error = serde_json::json!({ "kind": self.kind, "message": self.message });
         serde_json::json!({ "error": error }).to_string()

@@ -1,5 +1,4 @@
-//! Which features commands look for, and how they match them. What is not said on the command line
-//! is the core's default, the same for every command.
+//! Command-line options of feature detection and matching, with the defaults of the core.
 
 mod kinds;
 mod numbers;
@@ -41,7 +40,7 @@ impl From<Kind> for FeatureKind {
     }
 }
 
-/// The options that all commands with features share.
+/// Options shared by all commands with features.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features")]
 pub(crate) struct FeatureArguments {
@@ -63,7 +62,7 @@ pub(crate) struct FeatureArguments {
 }
 
 impl FeatureArguments {
-    /// The same for the core.
+    /// Returns the options of the core.
     pub(crate) fn options(&self) -> FeatureOptions {
         let common = FeatureOptions::default()
             .with_kind(self.features.into())
@@ -73,7 +72,7 @@ impl FeatureArguments {
         self.kinds.options(common)
     }
 
-    /// Looks for features in a photograph.
+    /// Detects the features of a photo.
     ///
     /// # Errors
     /// As the core's detectors.
@@ -84,7 +83,7 @@ impl FeatureArguments {
     }
 }
 
-/// The options that all commands with matches share.
+/// Options shared by all commands with matches.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Matches")]
 pub(crate) struct MatchArguments {
@@ -104,7 +103,7 @@ pub(crate) struct MatchArguments {
 }
 
 impl MatchArguments {
-    /// The same for the core.
+    /// Returns the options of the core.
     pub(crate) fn options(&self) -> MatchOptions {
         MatchOptions::default()
             .with_max_ratio(Some(self.ratio))
@@ -113,8 +112,7 @@ impl MatchArguments {
             .with_unique(self.unique)
     }
 
-    /// Matches the features of two photographs, the least ambiguous first: some samplers make use
-    /// of it.
+    /// Matches the features of two photos and sorts the matches, least ambiguous first, for PROSAC.
     ///
     /// # Errors
     /// As [`MatchArguments::run`].
@@ -128,7 +126,7 @@ impl MatchArguments {
         Ok(matches)
     }
 
-    /// Matches the features of two photographs.
+    /// Matches the features of two photos.
     ///
     /// # Errors
     /// As the core's matchers.
@@ -138,7 +136,7 @@ impl MatchArguments {
     }
 }
 
-/// The pixels of matches in both photographs, in their order.
+/// Returns the pixels of matches in both photos.
 pub(crate) fn matched_pixels(
     matches: &[Match],
     first: &Features,
@@ -149,7 +147,7 @@ pub(crate) fn matched_pixels(
     [pixels1.collect(), pixels2.collect()]
 }
 
-/// `[u, v, scale_px, angle_rad, response]` of each keypoint.
+/// Returns `[u, v, scale_px, angle_rad, response]` of each keypoint.
 pub(crate) fn rows(keypoints: &[Keypoint]) -> Vec<[f64; 5]> {
     let row = |keypoint: &Keypoint| {
         let [scale, angle, response] =

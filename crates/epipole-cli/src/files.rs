@@ -1,11 +1,11 @@
-//! Reading and writing, with sentences for what goes wrong and nothing half-written.
+//! Reading and writing files, with clear errors and without partial output.
 
 use crate::failure::Failure;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-/// Prints one text and a line end on standard output.
+/// Prints a text and a newline on standard output.
 ///
 /// # Errors
 /// If standard output is closed.
@@ -23,17 +23,16 @@ pub(crate) fn print_bytes(bytes: &[u8]) -> io::Result<()> {
     out.flush()
 }
 
-/// Whether a path is `-`: standard input or output.
+/// Returns whether a path is `-`, standard input or output.
 pub(crate) fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Writes a file aside and then renames it, so that a reader never sees half of it. A link stays
-/// one: what it leads to is written. What is no file, such as a pipe or `/dev/null`, is written
-/// into.
+/// Writes a temporary file and renames it, so that readers never see a partial file. Links are
+/// followed. A pipe or a device such as `/dev/null` is written directly.
 ///
 /// # Errors
-/// A sentence naming the file.
+/// A failure naming the file.
 pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failure =
         |error: io::Error| Failure::new("write", format!("cannot be written: {error}")).about(path);
@@ -48,17 +47,16 @@ pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     fs::write(aside, bytes)
         .and_then(|()| fs::rename(aside, &target))
         .map_err(|error| {
-            // The part may not exist; there is nothing more to tell than the first error.
+            // The temporary file may not exist; only the first error matters.
             let _ = fs::remove_file(aside);
             failure(error)
         })
 }
 
-/// Reads a file of text, or standard input where the path is `-`, without the byte order mark that
-/// some editors put at its start.
+/// Reads a text file, or standard input if the path is `-`, without a byte order mark.
 ///
 /// # Errors
-/// A sentence naming the file.
+/// A failure naming the file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     let text = String::from_utf8(read_bytes(path)?)
         .map_err(|_| Failure::new("read", "this is not a text file").about(path))?;
@@ -68,10 +66,10 @@ pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
     })
 }
 
-/// Reads a file, or standard input where the path is `-`.
+/// Reads a file, or standard input if the path is `-`.
 ///
 /// # Errors
-/// A sentence naming the file.
+/// A failure naming the file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = match is_standard(path) {
         true => {
@@ -116,7 +114,7 @@ pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {
 /// Makes a folder, with those above it.
 ///
 /// # Errors
-/// A sentence naming the folder.
+/// A failure naming the folder.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
     fs::create_dir_all(path).map_err(|error| {
         Failure::new("write", format!("the folder cannot be made: {error}")).about(path)
@@ -126,7 +124,7 @@ pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
 /// Makes the folder of a file.
 ///
 /// # Errors
-/// A sentence naming the folder.
+/// A failure naming the folder.
 pub(crate) fn make_folder_of(path: &Path) -> Result<(), Failure> {
     path.parent().map_or(Ok(()), make_folder)
 }
@@ -163,7 +161,7 @@ mod tests {
         write(&pipe, b"through").unwrap();
         assert_eq!(read.join().unwrap(), b"through");
         assert!(fs::metadata(&pipe).unwrap().file_type().is_fifo());
-        // Nothing is left beside them.
+        // No temporary file remains.
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 3);
         fs::remove_dir_all(&folder).unwrap();
     }

@@ -1,6 +1,5 @@
-//! Any file that people write or edit gives an answer or an error, never a panic, and every number
-//! in the answer is finite. As for the formats of the core: a thousand cases each, or
-//! `EPIPOLE_FUZZ_CASES`.
+//! Any file that people write or edit yields a result with finite numbers or an error, never a
+//! panic. A thousand cases each, or `EPIPOLE_FUZZ_CASES`.
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
@@ -15,7 +14,7 @@ use std::path::Path;
 
 const POSITIONS: &str = "# name\na.jpg 1 2 3\nb c.jpg -1.5 2e2 3 0.5\n17 1 2 3\n";
 
-/// Whether a failure has a message that names the file.
+/// Returns whether the message of a failure names the file.
 fn is_told(failure: &Failure) -> bool {
     let text = failure.to_string();
     text.contains("file") && text.len() > "file: ".len()

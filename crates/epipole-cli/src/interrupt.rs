@@ -1,4 +1,4 @@
-//! Ctrl-C asks the work to end with what it has; a second one ends it at once.
+//! Ctrl-C: the first ends the work with the result so far, the second ends the program.
 
 use epipole::progress::Status;
 use std::ops::ControlFlow;
@@ -9,12 +9,12 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 /// Warning about interrupted work.
 pub(crate) const ENDED_EARLY: &str = "ended early; the result is what there was";
 
-/// The exit status of a program that Ctrl-C ended, as shells tell it.
+/// Exit status of shells for a program ended by Ctrl-C.
 const ENDED: i32 = 130;
 
 /// Listens for Ctrl-C from now on.
 pub(crate) fn listen() {
-    // Without a handler Ctrl-C ends the program at once, which is what it does everywhere.
+    // Without a handler Ctrl-C ends the program at once, an acceptable fallback.
     let _ = ctrlc::set_handler(|| {
         if REQUESTED.swap(true, Ordering::SeqCst) {
             std::process::exit(ENDED);
@@ -23,7 +23,7 @@ pub(crate) fn listen() {
     });
 }
 
-/// Whether Ctrl-C was pressed.
+/// Returns whether Ctrl-C was pressed.
 pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }

@@ -1,4 +1,4 @@
-//! The calibrated camera of photographs, from a file.
+//! Calibrated camera of photos, from a file.
 
 use crate::camera::PairArguments;
 use crate::context::Context;
@@ -12,16 +12,15 @@ use epipole::camera::Camera;
 use nalgebra::Point2;
 use std::path::{Path, PathBuf};
 
-/// A share of a photograph without rays that is more than the corners around the circle of a
-/// fisheye.
+/// Fraction of a photo without rays that exceeds the corners around a fisheye's circle.
 const MUCH_UNSEEN: f64 = 0.3;
-/// So much that the file cannot be that of the camera.
+/// Fraction of a photo without rays that shows a file of another camera.
 const MOST_UNSEEN: f64 = 0.75;
 
-/// Says that the lens model bends no ray to a large part of the photographs.
+/// Warns if a large part of the photos has no rays in the lens model.
 ///
 /// # Errors
-/// A sentence, if it is most of them.
+/// If that part is more than three quarters.
 pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
     let share = lens::unseen_share(camera);
     let sentence = format!(
@@ -38,7 +37,7 @@ pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), F
     Ok(())
 }
 
-/// Says for which photographs the calibrated camera was not used.
+/// Warns of photos that the calibrated camera was not used for.
 ///
 /// * `others`: their names, and width and height as the sensor gave them
 pub(crate) fn tell_of_others(
@@ -63,7 +62,7 @@ pub(crate) fn tell_of_others(
     ));
 }
 
-/// The camera of two photographs.
+/// Calibrated camera of two photos.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct CameraFile {
     /// Camera file (FILE#NAME: one of several) of `epipole calibrate`, OpenCV, ROS, Kalibr, KITTI,
@@ -78,7 +77,7 @@ impl CameraFile {
         self.camera_file.is_some()
     }
 
-    /// Reads the camera where there are no photos.
+    /// Reads the camera without photos.
     ///
     /// # Errors
     /// As [`lens::read`].
@@ -91,10 +90,10 @@ impl CameraFile {
         Ok(Some(camera))
     }
 
-    /// Reads two photographs, which keep what the lens did.
+    /// Reads two photos and keeps their distortion.
     ///
     /// # Errors
-    /// A sentence, for files that cannot be read, and where neither photograph is by the camera.
+    /// For files that cannot be read, and where neither photograph is by the camera.
     pub(crate) fn read(
         &self,
         paths: [&Path; 2],
@@ -134,7 +133,7 @@ impl CameraFile {
     }
 }
 
-/// The cameras of two photographs with their lenses. Warns of a guessed focal length.
+/// Returns the cameras of two photos with their lenses. Warns of a guessed focal length.
 ///
 /// # Errors
 /// As [`PairArguments::or_guess`].
@@ -150,7 +149,7 @@ pub(crate) fn known_cameras(
     Ok([photos[0].camera(k1), photos[1].camera(k2)])
 }
 
-/// Warns of matches with a pixel that its lens bends no ray to.
+/// Warns of matches with a pixel that has no ray in its lens model.
 pub(crate) fn warn_of_unseen(
     cameras: [&Camera; 2],
     pixels: [&[Point2<f64>]; 2],

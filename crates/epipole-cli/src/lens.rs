@@ -1,4 +1,4 @@
-//! Files of calibrated cameras.
+//! Reading calibrated cameras.
 
 use crate::failure::Failure;
 use crate::files;
@@ -10,7 +10,7 @@ use epipole_io::photo::sensor_size;
 use nalgebra::Point2;
 use std::path::Path;
 
-/// The model of a lens, as a word.
+/// Lens model on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
     /// Five coefficients (Brown and Conrady), for usual lenses.
@@ -34,7 +34,8 @@ impl From<Model> for LensKind {
     }
 }
 
-/// Share of an image that has no rays: beyond the fold of its model, or beyond straight backwards.
+/// Returns the fraction of an image without rays: beyond the fold of its lens model, or more than
+/// 180° off the axis.
 pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     const SIDE: u32 = 24;
     let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;
@@ -46,13 +47,13 @@ pub(crate) fn unseen_share(camera: &Camera) -> f64 {
     unseen as f64 / f64::from(SIDE * SIDE)
 }
 
-/// Reads a camera from a file of any format, `FILE` or `FILE#NAME`. Of several cameras without a
-/// name, it is the first whose size is the photograph's, or else the first.
+/// Reads a camera from a file of any format, `FILE` or `FILE#NAME`. Without a name, takes the first
+/// camera with the size of the photo, or else the first.
 ///
-/// * `photo`: a photograph of the camera; its size is the camera's where the file has none
+/// * `photo`: a photo by the camera, whose size is used if the file has none
 ///
 /// # Errors
-/// A sentence that names the file and what is wrong in it.
+/// A failure that names the file and the problem.
 pub(crate) fn read(path: &Path, photo: Option<&Path>) -> Result<Camera, Failure> {
     let (path, name) = split_name(path);
     let size = photo.and_then(size_of);
@@ -128,7 +129,8 @@ fn no_right(path: &Path) -> Failure {
     .about(path)
 }
 
-/// Refuses a file with cameras that are left out where nobody named one: it may be one of these.
+/// Refuses a file with unsupported cameras if no name was given, because the right one may be among
+/// them.
 fn check_whole(cameras: &Cameras, path: &Path) -> Result<(), Failure> {
     let Some(note) = cameras.notes.first() else {
         return Ok(());
@@ -147,7 +149,7 @@ fn read_all(path: &Path, size: Option<(u32, u32)>) -> Result<Cameras, Failure> {
     Ok(cameras)
 }
 
-/// The file and the name behind the last `#`, if no file has the whole name.
+/// Splits a path at its last `#` into file and name, unless a file has the whole name.
 fn split_name(path: &Path) -> (&Path, Option<&str>) {
     match path.to_str().and_then(|text| text.rsplit_once('#')) {
         Some((file, name)) if !path.exists() => (Path::new(file), Some(name)),
@@ -155,7 +157,7 @@ fn split_name(path: &Path) -> (&Path, Option<&str>) {
     }
 }
 
-/// Width and height of a photograph as stored, if its header can be read.
+/// Returns width and height of a photo as stored, if its header can be read.
 pub(crate) fn size_of(photo: &Path) -> Option<(u32, u32)> {
     sensor_size(&std::fs::read(photo).ok()?).ok()
 }

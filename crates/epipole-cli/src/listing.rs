@@ -1,4 +1,4 @@
-//! Photographs given by name or by folder: their order, and their names in results.
+//! Photos given by name or by folder: their order, and their names in results.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -7,12 +7,12 @@ use clap::Args;
 use std::cmp::Ordering;
 use std::path::{Component, Path, PathBuf};
 
-/// Extensions of formats that are read.
+/// Extensions of supported formats.
 const READ: [&str; 10] = [
     "png", "jpg", "jpeg", "webp", "tif", "tiff", "bmp", "pgm", "ppm", "pnm",
 ];
 
-/// Extensions of photographs that are not.
+/// Extensions of unsupported photos.
 const UNREAD: [&str; 14] = [
     "heic", "heif", "avif", "gif", "jxl", "jp2", "dng", "nef", "cr2", "cr3", "arw", "raf", "orf",
     "rw2",
@@ -31,18 +31,17 @@ pub(crate) struct ListingArguments {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Listed {
     pub(crate) path: PathBuf,
-    /// Path from the folder that all have in common, with slashes.
+    /// Path relative to the folder that all photos share, with slashes.
     pub(crate) name: String,
 }
 
 impl ListingArguments {
-    /// The files given, folders replaced by the photographs in them: frame2 before frame10, the
-    /// files of a folder before its folders. Warns of photographs that are left out for their
-    /// format.
+    /// Returns the given files, with folders replaced by their photos: frame2 before frame10, files
+    /// before subfolders. Warns of photos skipped for their format.
     ///
     /// # Errors
-    /// A sentence, for files and folders that cannot be read, folders without photographs, and a
-    /// file that is given twice.
+    /// For files and folders that cannot be read, folders without photographs, and a file that is
+    /// given twice.
     pub(crate) fn photos(
         self,
         given: &[PathBuf],
@@ -61,7 +60,7 @@ impl ListingArguments {
                 }
                 paths.append(&mut found.photos);
             } else {
-                // Told before files are counted: a name that is wrong is not a list too short.
+                // Checked first, because a wrong name should not be reported as too few files.
                 path.metadata()
                     .map_err(|error| files::unreadable(path, &error))?;
                 paths.push(path.clone());
@@ -95,7 +94,7 @@ impl Found {
             }
             let extension = path.extension().and_then(|extension| extension.to_str());
             let extension = extension.map(str::to_lowercase).unwrap_or_default();
-            // Some systems write a file of their own beside each, its name behind a dot.
+            // Some systems add a hidden file beside each file, with a leading dot.
             let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
             if is_hidden || path.is_dir() {
                 continue;
@@ -116,7 +115,7 @@ impl Found {
         Ok(())
     }
 
-    /// Photographs of formats that are not read, in words.
+    /// Describes the photos of unsupported formats.
     fn unread_words(&self) -> Option<String> {
         let first = file_name(self.unread.first()?);
         let count = self.unread.len();
@@ -125,7 +124,7 @@ impl Found {
         ))
     }
 
-    /// Why there are no photographs.
+    /// Explains why there are no photos.
     fn nothing(&self) -> String {
         if let Some(unread) = self.unread_words() {
             return format!("there are only {unread}");
@@ -138,7 +137,7 @@ impl Found {
     }
 }
 
-/// Order of paths in which runs of digits are numbers.
+/// Compares paths, runs of digits as numbers.
 pub(crate) fn natural(a: &Path, b: &Path) -> Ordering {
     let (a, b) = (a.to_string_lossy(), b.to_string_lossy());
     let order = parts(&a).cmp(parts(&b));
@@ -146,8 +145,8 @@ pub(crate) fn natural(a: &Path, b: &Path) -> Ordering {
     order.then_with(|| a.cmp(&b))
 }
 
-/// Parts of a name: characters, and numbers in the place of their digits, with their length and
-/// digits without zeros in front.
+/// Splits a name into characters and numbers. A number is `'0'` with the count of its digits and
+/// the digits, without leading zeros.
 fn parts(text: &str) -> impl Iterator<Item = (char, usize, &str)> {
     let mut rest = text;
     std::iter::from_fn(move || {
@@ -164,7 +163,7 @@ fn parts(text: &str) -> impl Iterator<Item = (char, usize, &str)> {
     })
 }
 
-/// Gives each file its name.
+/// Names each file relative to the folder that all share.
 fn named(paths: Vec<PathBuf>) -> Result<Vec<Listed>, Failure> {
     let mut whole = Vec::with_capacity(paths.len());
     for path in &paths {
@@ -202,7 +201,7 @@ fn named(paths: Vec<PathBuf>) -> Result<Vec<Listed>, Failure> {
     Ok(listed)
 }
 
-/// The name of a file without its folder.
+/// Returns the name of a file without its folder.
 pub(crate) fn file_name(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())

@@ -1,8 +1,8 @@
 //! The command line `epipole`: features, matches, two-view geometry, stereo, structure from motion
 //! and the book's figures, from files to a table or to JSON.
 //!
-//! Standard output carries the result and nothing else; warnings and progress go to standard
-//! error. Exit status: 0 done, 1 could not do it, 2 wrong usage.
+//! Standard output carries only the result; warnings and progress go to standard error. Exit
+//! status: 0 success, 1 failure, 2 wrong usage.
 
 mod camera;
 mod commands;
@@ -46,7 +46,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Instant;
 
-/// Behind what is of one command alone.
+/// Display order after the options of a single command.
 const LAST: usize = 900;
 
 /// Multi-view geometry on your own photos.
@@ -117,8 +117,8 @@ fn main() -> ExitCode {
     }
 }
 
-/// The whole command line. What follows an option that takes a value is that value, also where it
-/// is a number below 0: then the option says what is wrong with it.
+/// Returns the command line. An option takes the next argument as its value even if it is a
+/// negative number, so that the error comes from the option.
 fn command() -> clap::Command {
     let with_negatives = |argument: clap::Arg| match argument.get_action().takes_values() {
         true if !argument.is_positional() => argument.allow_negative_numbers(true),
@@ -128,7 +128,8 @@ fn command() -> clap::Command {
         .mut_subcommands(|subcommand| subcommand.mut_args(with_negatives))
 }
 
-/// Prints the options of a command line with `--dump-config`, also where only files are missing.
+/// Prints the options of a command line with `--dump-config`, even if required arguments are
+/// missing.
 fn dumped(
     command: &clap::Command,
     arguments: &[OsString],
@@ -156,7 +157,7 @@ fn dumped(
     })
 }
 
-/// Help and version go where they belong; under `--json` a usage error is JSON too.
+/// Prints help, version or a usage error; under `--json` a usage error is JSON.
 fn wrong_usage(error: &clap::Error) -> ExitCode {
     if error.use_stderr() && std::env::args().any(|argument| argument == "--json") {
         let message = error.to_string();
@@ -198,7 +199,7 @@ fn print_report(mut report: Report, time_ms: f64, json: bool) -> ExitCode {
 
 fn print_failure(failure: &Failure, json: bool) {
     if json {
-        // Nobody is left to tell if standard output is closed; the exit status still says it.
+        // If standard output is closed, only the exit status can report the failure.
         let _ = files::print(&failure.to_json());
     } else {
         eprintln!("error: {}", failure.message);

@@ -14,10 +14,10 @@ fn read<T>(path: &Path, parse: fn(&[u8]) -> epipole_io::Result<T>) -> Result<T, 
     parse(&bytes).map_err(|error| Failure::from(error).about(path))
 }
 
-/// Reads the matches of two images: the pixels in each.
+/// Reads the matches of two images, as pixels of each.
 ///
 /// # Errors
-/// A sentence that names the file and the line.
+/// A failure that names the file and the line.
 pub(crate) fn matches(path: &Path) -> Result<[Vec<Point2<f64>>; 2], Failure> {
     read(path, read_matches)
 }
@@ -38,8 +38,7 @@ pub(crate) fn points_with_pixels(path: &Path) -> Result<PixelsAndPoints, Failure
     read(path, read_points_with_pixels)
 }
 
-/// Text of matches, with the distance of their descriptors and its ratio to the second nearest, if
-/// there are any.
+/// Returns the text of matches, with descriptor distances and ratios if there are any.
 pub(crate) fn text(
     path: &Path,
     pixels: [&[Point2<f64>]; 2],
@@ -48,7 +47,7 @@ pub(crate) fn text(
     write_matches(layout(path), pixels, distances_and_ratios)
 }
 
-/// Text of the inliers of matches, or of points where the second list is empty.
+/// Returns the text of the inliers of matches, or of points if the second list is empty.
 pub(crate) fn inliers(path: &Path, pixels: [&[Point2<f64>]; 2], mask: &[bool]) -> String {
     let kept = pixels.map(|list| -> Vec<Point2<f64>> {
         let kept = list.iter().zip(mask).filter(|(_, is_inlier)| **is_inlier);
@@ -60,7 +59,7 @@ pub(crate) fn inliers(path: &Path, pixels: [&[Point2<f64>]; 2], mask: &[bool]) -
     }
 }
 
-/// Columns have commas between them if the name of the file ends in `.csv`.
+/// Returns the layout: commas if the name of the file ends in `.csv`.
 fn layout(path: &Path) -> MatchLayout {
     match path.extension() {
         Some(ending) if ending.eq_ignore_ascii_case("csv") => MatchLayout::Csv,

@@ -4,7 +4,7 @@ use epipole::camera::{Intrinsics, RigidTransform};
 use nalgebra::{Matrix3, Point2, Vector3};
 use serde::Serialize;
 
-/// The entries of a matrix, row by row.
+/// Returns the entries of a matrix, row by row.
 pub(crate) fn row_major(matrix: &Matrix3<f64>) -> [f64; 9] {
     let mut entries = [0.0; 9];
     entries.copy_from_slice(matrix.transpose().as_slice());
@@ -69,7 +69,7 @@ pub(crate) fn direction(text: &str) -> Result<Vector3<f64>, String> {
     }
 }
 
-/// Lengths, angles and numbers of pixels are of some size, and their squares are numbers, too.
+/// Range of lengths, angles and numbers of pixels, whose squares neither overflow nor vanish.
 pub(crate) const FAR: std::ops::RangeInclusive<f64> = 1e-12..=1e12;
 
 /// Reads a number above zero.
@@ -101,7 +101,7 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Reads a share from 0 to 1.
+/// Reads a fraction, 0 to 1.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 /// Folders within a project that hold its model.
 const FOLDERS: [&str; 4] = ["", "sparse/0", "sparse", "0"];
 
-/// Content of a file below a folder, for names that a file gives: none leads out of the folder.
+/// Reads a file below a folder. Names come from other files and must not lead out of the folder.
 fn beside(folder: &Path, name: &str) -> Option<Vec<u8>> {
     let name = Path::new(name);
     let is_below = name
@@ -17,10 +17,10 @@ fn beside(folder: &Path, name: &str) -> Option<Vec<u8>> {
     is_below.then(|| std::fs::read(folder.join(name)).ok())?
 }
 
-/// Reads the model of a folder or file. One of COLMAP's files stands for all of its kind.
+/// Reads the model of a folder or file. One of COLMAP's files is enough to name the model.
 ///
 /// # Errors
-/// A sentence that names the path, if there is no model or it is wrong.
+/// A failure that names the path, if there is no model or it is wrong.
 pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
     if !path.is_dir() {
         return of_file(path, &files::read_bytes(path)?);
@@ -37,10 +37,10 @@ pub(crate) fn read(path: &Path) -> Result<ReadModel, Failure> {
     Err(Failure::new("read", message).about(path))
 }
 
-/// Reads the model of a file and of those that it names.
+/// Reads the model of a file and the files that it names.
 ///
 /// # Errors
-/// A sentence that names the path.
+/// A failure that names the path.
 pub(crate) fn of_file(path: &Path, bytes: &[u8]) -> Result<ReadModel, Failure> {
     let about = |error: epipole_io::Error| Failure::from(error).about(path);
     let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);

@@ -15,13 +15,13 @@ const SAME_SHAPE: f64 = 0.01;
 pub(crate) struct ImageFolder(pub(crate) PathBuf);
 
 impl ImageFolder {
-    /// The folder given, or `images` of the project, in which the model is `.`, `sparse` or
+    /// Returns the given folder, or `images` of the project, whose model is in `.`, `sparse` or
     /// `sparse/0`.
     ///
-    /// * `option`: which gives the folder
+    /// * `option`: the option that names the folder
     ///
     /// # Errors
-    /// A sentence, if there is none.
+    /// If there is none.
     pub(crate) fn find(given: Option<&Path>, model: &Path, option: &str) -> Result<Self, Failure> {
         let beside = || {
             let folder = match model.is_dir() {
@@ -39,7 +39,7 @@ impl ImageFolder {
         })
     }
 
-    /// The file of an image, by its name in the model or the end of it.
+    /// Returns the file of an image, by its name in the model or the last part of that name.
     pub(crate) fn file_of(&self, name: &str) -> Option<PathBuf> {
         let last = Path::new(name).file_name()?;
         let candidates = [self.0.join(name), self.0.join(last)];
@@ -51,7 +51,7 @@ impl ImageFolder {
     /// * `num_images`: of the model
     ///
     /// # Errors
-    /// A sentence, if none is.
+    /// If none is.
     pub(crate) fn tell_of_missing(
         &self,
         missing: &[&str],
@@ -75,10 +75,10 @@ impl ImageFolder {
     }
 }
 
-/// An image as its camera sees it: upright, or as stored.
+/// Reads an image in the frame of its camera: upright, or as stored.
 ///
 /// # Errors
-/// A sentence naming the file, if it cannot be read or has another shape than its camera.
+/// A failure naming the file, if it cannot be read or has another shape than its camera.
 pub(crate) fn in_frame_of_camera(
     camera: &Camera,
     path: &Path,
@@ -104,10 +104,10 @@ pub(crate) fn in_frame_of_camera(
     Err(Failure::new("size-mismatch", message).about(path))
 }
 
-/// The camera for an image of another size.
+/// Returns the camera for an image of another size.
 ///
 /// # Errors
-/// A sentence for a camera or an image without pixels.
+/// For a camera or an image without pixels.
 pub(crate) fn resized(camera: &Camera, to: (u32, u32)) -> Result<Camera, Failure> {
     let from = (camera.width, camera.height);
     Ok(Camera {

@@ -1,4 +1,4 @@
-//! A folder of results that is written again: files of the run before do not stay behind.
+//! Output folder that removes the files of an earlier run.
 
 pub(crate) mod colmap;
 
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// List of the files that commands wrote: a checksum, the command and a path a line.
+/// List of files that commands wrote: checksum, command and path per line.
 const LIST: &str = ".epipole-files";
 
 /// A file that a command wrote.
@@ -46,7 +46,7 @@ impl OutputFolder {
         &self.folder
     }
 
-    /// Whether a file is there that this command did not write, or that was changed since.
+    /// Returns whether a file exists that this command did not write or that was changed since.
     pub(crate) fn holds_foreign(&self, name: &str) -> bool {
         let is_mine = |written: &Written| written.owner == self.owner;
         self.folder.join(name).exists()
@@ -63,7 +63,7 @@ impl OutputFolder {
     /// * `name`: path below the folder, with `/`
     ///
     /// # Errors
-    /// A sentence naming the file.
+    /// A failure naming the file.
     pub(crate) fn write(&mut self, name: &str, bytes: &[u8]) -> Result<PathBuf, Failure> {
         let path = self.folder.join(name);
         files::make_folder(path.parent().unwrap_or(&self.folder))?;
@@ -76,18 +76,18 @@ impl OutputFolder {
         Ok(path)
     }
 
-    /// Removes the files of this command's earlier runs that were not written again, and their
-    /// folders if nothing else is in them. A file that was changed since stays.
+    /// Removes files of earlier runs of this command that were not rewritten, and their folders if
+    /// empty. Files changed since are kept.
     ///
     /// # Errors
-    /// A sentence naming a file that cannot be removed or written.
+    /// A failure naming a file that cannot be removed or written.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let owner = self.owner;
         self.finish_with(|written| written.owner == owner)
     }
 
-    /// As [`finish`](Self::finish), for the files of all commands: what they made of the result of
-    /// an earlier run does not fit this one.
+    /// Does the work of [`finish`](Self::finish) for the files of all commands, because files
+    /// derived from an earlier result do not fit this one.
     ///
     /// # Errors
     /// As [`finish`](Self::finish).
@@ -121,7 +121,7 @@ impl OutputFolder {
         })?;
         let mut parent = Path::new(name).parent();
         while let Some(folder) = parent.filter(|folder| !folder.as_os_str().is_empty()) {
-            // Fails as long as something is in it.
+            // Fails if the folder is not empty.
             if fs::remove_dir(self.folder.join(folder)).is_err() {
                 break;
             }
@@ -131,7 +131,7 @@ impl OutputFolder {
     }
 }
 
-/// The lines of a list; those that lead out of the folder are left out.
+/// Parses a list, without paths that lead out of the folder.
 fn parse(text: &str) -> BTreeMap<String, Written> {
     let is_below = |name: &str| {
         let mut parts = Path::new(name).components();

@@ -4,7 +4,7 @@ use crate::matrices::positive;
 use clap::{Args, ValueEnum};
 use epipole::calibration::{MarkerDictionary, Pattern};
 
-/// Side of a marker as a share of its square's, unless given.
+/// Default side of a marker, relative to that of its square.
 const MARKER_SHARE: f64 = 0.75;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -38,7 +38,7 @@ pub(crate) struct PatternArguments {
 impl PatternArguments {
     /// The pattern.
     ///
-    /// * `marker`, `square`: sides in one unit; without the first markers take three quarters
+    /// * `marker`, `square`: sides in one unit; the default marker side is three quarters of the square
     pub(crate) fn pattern(&self, marker: Option<f64>, square: f64) -> Pattern {
         match self.pattern {
             Printed::Chessboard => Pattern::Chessboard,
@@ -54,7 +54,7 @@ impl PatternArguments {
         }
     }
 
-    /// Word of the pattern on the command line.
+    /// Returns the name of the pattern on the command line.
     pub(crate) fn name(&self) -> String {
         let value = self.pattern.to_possible_value();
         value.map_or_else(String::new, |value| value.get_name().to_owned())

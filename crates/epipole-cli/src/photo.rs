@@ -13,7 +13,7 @@ use epipole_io::photo::{DecodeOptions, PrepareOptions, PreparedPhoto, decode_rgb
 use image::{GrayImage, RgbImage};
 use std::path::Path;
 
-/// A photograph, upright, with what its file says about the camera.
+/// An upright photo, with the data of its file about the camera.
 pub(crate) struct Photo {
     pub(crate) color: RgbImage,
     /// First guess of the focal length from EXIF, pixels.
@@ -24,13 +24,13 @@ pub(crate) struct Photo {
     pub(crate) place: Option<Geodetic>,
     /// K, if the camera is known, or if the distortion of its lens was removed.
     pub(crate) k: Option<Intrinsics>,
-    /// The lens, if it is known and the photograph shows what it did.
+    /// The lens, if it is known and its distortion was kept.
     pub(crate) lens: Option<KeptLens>,
-    /// Width and height before it was reduced.
+    /// Width and height before downscaling.
     pub(crate) full_size: (u32, u32),
-    /// Width and height before it was turned upright, too.
+    /// Width and height before downscaling and rotation.
     pub(crate) sensor_size: (u32, u32),
-    /// Whether its file shows just these pixels: neither turned nor redrawn nor reduced.
+    /// Whether the file has exactly these pixels: not rotated, resampled or downscaled.
     pub(crate) is_as_stored: bool,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Photo {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct KeptLens {
     pub(crate) lens: Lens,
-    /// By how many quarters of a turn the photograph became upright, from the frame of its camera.
+    /// Number of quarter turns from the frame of the camera to upright.
     pub(crate) quarters: u8,
 }
 
@@ -59,10 +59,10 @@ impl From<PreparedPhoto> for Photo {
 }
 
 impl Photo {
-    /// Reads a file, downscaled, and without its distortion if it has the size of the camera.
+    /// Reads and downscales a file, and undistorts it if it has the size of the camera.
     ///
     /// # Errors
-    /// A sentence naming the file: missing, unreadable, corrupt or too large.
+    /// A failure naming the file: missing, unreadable, corrupt or too large.
     pub(crate) fn prepared(
         path: &Path,
         size: impl Into<SizeArguments>,
@@ -73,8 +73,8 @@ impl Photo {
         Ok(Self::from(photo))
     }
 
-    /// The same downscaled, its distortion kept: K and the lens are those of the camera, if it has
-    /// its size.
+    /// Reads and downscales a file and keeps its distortion. K and the lens are those of the
+    /// camera, if the sizes are equal.
     ///
     /// # Errors
     /// As [`Photo::prepared`].
@@ -99,7 +99,7 @@ impl Photo {
         Ok(photo)
     }
 
-    /// A photo of which only the camera is known, if that, in place of one that is not at hand.
+    /// Returns a placeholder for a missing photo, with its camera if known.
     pub(crate) fn without_pixels(camera: Option<&Camera>) -> Self {
         Self {
             color: RgbImage::new(0, 0),
@@ -117,7 +117,7 @@ impl Photo {
         }
     }
 
-    /// The camera of the photograph, given its intrinsics.
+    /// Returns the camera of the photo, given its intrinsics.
     pub(crate) fn camera(&self, intrinsics: Intrinsics) -> Camera {
         let (width, height) = self.color.dimensions();
         Camera {
@@ -126,8 +126,7 @@ impl Photo {
         }
     }
 
-    /// The pixels of a file as the sensor gave them, which is not always upright: a lens knows no
-    /// other frame.
+    /// Reads the pixels of a file in the orientation of the sensor, which is the frame of the lens.
     ///
     /// # Errors
     /// As [`Photo::prepared`].
@@ -146,12 +145,12 @@ impl Photo {
         Ok(decoded.image)
     }
 
-    /// A focal length in pixels of the file, in pixels of the photograph.
+    /// Converts a focal length from pixels of the file to pixels of the photo.
     pub(crate) fn reduced_focal_px(&self, focal_px: f64) -> f64 {
         focal_px * (f64::from(self.color.width()) / f64::from(self.full_size.0.max(1)))
     }
 
-    /// The same for K.
+    /// Converts K from pixels of the file to pixels of the photo.
     ///
     /// # Errors
     /// As [`Intrinsics::resized`].
@@ -162,18 +161,18 @@ impl Photo {
         }
     }
 
-    /// Gray values in [0, 1], the same for every command.
+    /// Returns gray values in [0, 1].
     pub(crate) fn gray(&self) -> GrayImage32 {
         photo_to_gray(&self.color)
     }
 
-    /// Gray values in 8 bits.
+    /// Returns gray values in 8 bits.
     pub(crate) fn gray_u8(&self) -> GrayImage {
         rgb_to_gray(&self.color)
     }
 }
 
-/// Reads a photograph, with a warning if nothing can be found in it.
+/// Reads a photo and warns if it has no contrast.
 fn prepare(
     size: SizeArguments,
     path: &Path,
@@ -198,17 +197,17 @@ fn prepare(
     Ok(photo)
 }
 
-/// Whether all gray levels are next to each other.
+/// Returns whether all gray levels are adjacent.
 fn is_flat(image: &RgbImage) -> bool {
     let levels = rgb_to_gray(image).into_raw();
     let ends = levels.iter().min().zip(levels.iter().max());
     ends.is_none_or(|(darkest, brightest)| brightest - darkest <= 2)
 }
 
-/// Refuses a pair of which one is smaller.
+/// Refuses a pair of different sizes.
 ///
 /// # Errors
-/// A sentence with both sizes.
+/// A failure with both sizes.
 pub(crate) fn check_same_size([first, second]: &[Photo; 2]) -> Result<(), Failure> {
     let (first, second) = (Size::from(&first.color), Size::from(&second.color));
     if first == second {
@@ -221,10 +220,10 @@ pub(crate) fn check_same_size([first, second]: &[Photo; 2]) -> Result<(), Failur
     Err(Failure::new("size-mismatch", message))
 }
 
-/// The bytes of a file.
+/// Reads the bytes of a file.
 ///
 /// # Errors
-/// A sentence naming it: missing or unreadable.
+/// A failure naming it: missing or unreadable.
 pub(crate) fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     std::fs::read(path).map_err(|error| files::unreadable(path, &error))
 }

@@ -14,7 +14,7 @@ pub(crate) const HUES: [[u8; 3]; 6] = [
     [213, 94, 0],
 ];
 
-/// The PNG file of a picture.
+/// Encodes a picture as PNG.
 ///
 /// # Errors
 /// If the picture has no pixels.
@@ -29,7 +29,7 @@ pub(crate) fn png(picture: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure
     Ok(bytes)
 }
 
-/// The JPEG file of a photograph, of a quality at which one hardly sees that it is one.
+/// Encodes a photo as JPEG of high quality.
 ///
 /// # Errors
 /// If the photograph has no pixels, or more to a side than JPEG can count.
@@ -63,7 +63,7 @@ pub(crate) fn keypoints(picture: &mut RgbImage, keypoints: &[Keypoint], offset_u
     }
 }
 
-/// Two photographs side by side.
+/// Joins two photos side by side.
 pub(crate) fn side_by_side(left: &RgbImage, right: &RgbImage) -> RgbImage {
     let height = left.height().max(right.height());
     let mut both = RgbImage::new(left.width() + right.width(), height);
@@ -72,7 +72,7 @@ pub(crate) fn side_by_side(left: &RgbImage, right: &RgbImage) -> RgbImage {
     both
 }
 
-/// A line of single pixels.
+/// Draws a line one pixel wide.
 pub(crate) fn line(picture: &mut RgbImage, from: (f64, f64), to: (f64, f64), color: [u8; 3]) {
     let length = (to.0 - from.0)
         .abs()
@@ -93,7 +93,7 @@ fn dot(picture: &mut RgbImage, u: f64, v: f64, color: [u8; 3]) {
     }
 }
 
-/// The chunk of a PNG file that tells its resolution.
+/// Returns the PNG chunk of the resolution.
 ///
 /// Source: PNG specification (third edition), §11.3.4.3 pHYs.
 pub(crate) fn png_resolution(dpi: f64) -> Vec<u8> {

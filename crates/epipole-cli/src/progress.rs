@@ -8,8 +8,7 @@ use std::ops::ControlFlow;
 
 const STEPS: u64 = 1000;
 
-/// A bar that shows what is being done and how much of it is done; hidden under `--quiet` and
-/// where standard error is no terminal.
+/// Progress bar; hidden under `--quiet` and if standard error is not a terminal.
 pub(crate) struct Progress(ProgressBar);
 
 impl Progress {
@@ -19,21 +18,20 @@ impl Progress {
         }
         let style = ProgressStyle::with_template("{msg} {wide_bar} {percent}%");
         let bar = ProgressBar::new(STEPS).with_message(label.to_owned());
-        // The template is a constant; a bar without it is still a bar.
+        // The template is a constant, so the error cannot occur.
         if let Ok(style) = style {
             bar.set_style(style);
         }
         Self(bar)
     }
 
-    /// Shows the share that is done, 0 to 1.
+    /// Shows the completed fraction, 0 to 1.
     pub(crate) fn set(&self, share: f64) {
         self.0
             .set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 
-    /// Shows how far a function of the core is, its stage in the place of the label, and lets
-    /// Ctrl-C end it.
+    /// Shows the progress and the stage of a function of the core, and lets Ctrl-C end it.
     pub(crate) fn show(&self, status: Status) -> ControlFlow<()> {
         self.0.set_message(status.stage.words());
         self.set(f64::from(status.share));

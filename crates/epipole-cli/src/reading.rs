@@ -8,7 +8,7 @@ use epipole_io::photo::PixelRange;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Bytes of a pixel while a photograph is read: decoded, and once more turned upright.
+/// Bytes per pixel while a photo is read: the decoded image and its upright copy.
 const BYTES_PER_PIXEL: f64 = 6.0;
 
 /// Reading of photos.
@@ -25,12 +25,12 @@ pub(crate) struct ReadArguments {
 }
 
 impl ReadArguments {
-    /// Maximum number of pixels of a file.
+    /// Returns the maximum number of pixels of a file.
     pub(crate) fn max_file_pixels(self) -> u64 {
         (self.max_memory_gb * 1e9 / BYTES_PER_PIXEL) as u64
     }
 
-    /// A sentence about a photograph that cannot be read.
+    /// Describes why a photo cannot be read.
     pub(crate) fn failure(self, error: epipole_io::Error, path: &Path) -> Failure {
         let failure = match error {
             epipole_io::Error::TooManyPixels { got, .. } => {
@@ -48,7 +48,7 @@ impl ReadArguments {
         failure.about(path)
     }
 
-    /// Says once in a run which values became black and white, if nobody asked for them.
+    /// Warns once per run which values became black and white, if the range is automatic.
     pub(crate) fn tell_of_range(self, range: Option<[f64; 2]>, path: &Path, context: &Context) {
         static IS_TOLD: AtomicBool = AtomicBool::new(false);
         let (PixelRange::Auto, Some([low, high])) = (self.range, range) else {
@@ -65,7 +65,7 @@ impl ReadArguments {
     }
 }
 
-/// The number with six significant digits.
+/// Rounds to six significant digits.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
@@ -101,7 +101,7 @@ pub(crate) struct SizeArguments {
 }
 
 impl From<ReadArguments> for SizeArguments {
-    /// As large as they are.
+    /// Options without downscaling.
     fn from(reading: ReadArguments) -> Self {
         Self {
             max_megapixels: None,
@@ -112,9 +112,9 @@ impl From<ReadArguments> for SizeArguments {
 }
 
 impl SizeArguments {
-    /// Maximum number of pixels of the result.
+    /// Returns the maximum number of pixels of the result.
     pub(crate) fn max_pixels(self) -> u64 {
-        // A number beyond all pixels becomes the largest there is.
+        // The cast saturates.
         let pixels = |megapixels: f64| (megapixels * 1e6).round().max(1.0) as u64;
         self.max_megapixels.map_or(u64::MAX, pixels)
     }

@@ -1,4 +1,4 @@
-//! The options of least squares that commands share: how errors count, and when the steps end.
+//! Options of least squares shared by commands: loss and convergence.
 
 use crate::matrices::{not_negative, positive};
 use clap::{Args, ValueEnum};
@@ -16,7 +16,7 @@ enum Loss {
     Truncated,
 }
 
-/// Loss and convergence. The maximum number of iterations is each command's own.
+/// Loss and convergence. Each command has its own maximum number of iterations.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Least squares")]
 pub(crate) struct RefinementArguments {
@@ -45,7 +45,7 @@ pub(crate) struct RefinementArguments {
 }
 
 impl RefinementArguments {
-    /// The same for the core.
+    /// Returns the options of the core.
     pub(crate) fn options(&self, max_iterations: usize) -> LmOptions {
         LmOptions::default()
             .with_max_iterations(max_iterations)

@@ -11,14 +11,14 @@ use std::path::Path;
 pub(crate) struct Report {
     fields: Map<String, Value>,
     rows: Vec<(String, String)>,
-    /// Content of an output `-`.
+    /// Content of the output `-`.
     output: Option<Vec<u8>>,
 }
 
 impl Report {
     /// Adds a field of the JSON object.
     pub(crate) fn field(mut self, name: &str, value: impl Serialize) -> Self {
-        // Every value here is made of numbers, strings, lists and maps with string keys.
+        // Values consist of numbers, strings, lists and maps with string keys.
         let value = serde_json::to_value(value).expect("the value has a JSON form");
         self.fields.insert(name.to_owned(), value);
         self
@@ -30,7 +30,7 @@ impl Report {
         self
     }
 
-    /// Writes an output file. An output `-` is printed in place of the table.
+    /// Writes an output file. The output `-` is printed instead of the table.
     ///
     /// # Errors
     /// As [`files::write`].
@@ -42,18 +42,18 @@ impl Report {
         Ok(self)
     }
 
-    /// Content of an output `-`.
+    /// Takes the content of the output `-`.
     pub(crate) fn take_output(&mut self) -> Option<Vec<u8>> {
         self.output.take()
     }
 
-    /// One JSON object.
+    /// Returns one JSON object.
     pub(crate) fn into_json(mut self, time_ms: f64) -> String {
         self.fields.insert("time_ms".to_owned(), time_ms.into());
         Value::Object(self.fields).to_string()
     }
 
-    /// A table with one label and value a line.
+    /// Returns a table with one label and value per line.
     pub(crate) fn into_table(mut self, time_ms: f64) -> String {
         self.rows
             .push(("time".to_owned(), format!("{time_ms:.1} ms")));

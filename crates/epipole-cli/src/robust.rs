@@ -13,7 +13,7 @@ use epipole::robust::{
 };
 use std::fmt;
 
-/// Number of samples between two moves of the bar.
+/// Number of samples between updates of the progress bar.
 const SAMPLES_PER_LOOK: usize = 64;
 
 /// Sampling strategy.
@@ -29,7 +29,7 @@ pub(crate) enum Sampler {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum MaxError {
     Pixels(f64),
-    /// To be found from the noise of the data.
+    /// Estimated from the noise of the data.
     Auto,
 }
 
@@ -42,7 +42,7 @@ impl fmt::Display for MaxError {
     }
 }
 
-/// The word for a threshold that is to be found.
+/// Command-line value of an estimated threshold.
 const AUTO: &str = "auto";
 
 /// Scoring function.
@@ -103,8 +103,8 @@ fn confidence(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `epipole::two_view::PHOTO_MAX_ERROR_PX`, the threshold of commands on photographs, as clap wants
-/// it.
+/// Default threshold of commands on photos: `epipole::two_view::PHOTO_MAX_ERROR_PX` as text, for
+/// clap.
 pub(crate) const PHOTO_MAX_ERROR: &str = "2";
 
 fn max_error(text: &str) -> Result<MaxError, String> {
@@ -114,7 +114,7 @@ fn max_error(text: &str) -> Result<MaxError, String> {
     threshold(text).map(MaxError::Pixels)
 }
 
-/// Errors are compared with the threshold squared, so the square must be a number above zero, too.
+/// Reads a threshold. Errors are compared with its square, which must be above zero too.
 fn threshold(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value * value > 0.0 && (value * value).is_finite() => Ok(value),
@@ -125,7 +125,7 @@ fn threshold(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A threshold, in words.
+/// Describes a threshold in words.
 pub(crate) fn threshold_words(options: &RansacOptions, max_error_px: f64) -> String {
     match options.threshold {
         ThresholdKind::Given => format!("{max_error_px} px"),
@@ -134,7 +134,7 @@ pub(crate) fn threshold_words(options: &RansacOptions, max_error_px: f64) -> Str
 }
 
 impl RobustArguments {
-    /// The same for the core.
+    /// Returns the options of the core.
     pub(crate) fn options(&self, context: &Context) -> RansacOptions {
         let default = RansacOptions::default();
         let (max_error_px, threshold) = match self.max_error_px {
@@ -164,8 +164,8 @@ impl RobustArguments {
             .with_inner_iterations(self.inner_iterations as usize)
     }
 
-    /// Runs RANSAC to its end, or until Ctrl-C: then with the best model so far, if the threshold
-    /// is given. Warns of a model that means nothing, or that nothing verifies.
+    /// Runs RANSAC. After Ctrl-C returns the best model so far, if the threshold is given. Warns of
+    /// a model that is not significant or not verified.
     ///
     /// # Errors
     /// As [`ransac`].
@@ -195,11 +195,11 @@ impl RobustArguments {
         }
         drop(progress);
         let report = match run.finish() {
-            // No sample has given a model yet.
+            // No sample has yielded a model yet.
             Err(Error::NoConsensus { .. }) if is_interrupted => Err(Error::Canceled),
             finished => finished,
         }?;
-        // A few that someone picked are no search among wrong data.
+        // A minimal set picked by hand needs no test of significance.
         let is_minimal = report.num_unique_inliers == sample_size;
         if is_minimal && report.num_inliers == report.inliers.len() {
             context.warn(&format!(
@@ -211,7 +211,7 @@ impl RobustArguments {
         Ok(report)
     }
 
-    /// The same for a function that runs RANSAC itself; Ctrl-C cancels it.
+    /// Runs a function that calls RANSAC itself; Ctrl-C cancels it.
     pub(crate) fn watched<M>(
         &self,
         context: &Context,
@@ -224,7 +224,7 @@ impl RobustArguments {
         Ok(report)
     }
 
-    /// Tells of a run that ended before it could be confident.
+    /// Warns of a run that stopped below the confidence, and of a model that is not significant.
     pub(crate) fn warn<M>(&self, report: &RansacReport<M>, context: &Context) {
         let (drawn, required) = (report.iterations, report.required_iterations);
         self.warn_of_stop(report.stop, drawn, required, context);
@@ -236,7 +236,7 @@ impl RobustArguments {
         }
     }
 
-    /// The same of its numbers alone: samples drawn, and samples that the best model asks for.
+    /// Warns of a run that stopped early, from the numbers of samples drawn and required.
     pub(crate) fn warn_of_stop(
         &self,
         stop: StopReason,
@@ -263,7 +263,7 @@ impl RobustArguments {
     }
 }
 
-/// Why a run ended, as a word for scripts.
+/// Returns the reason for the end of a run, as a word for scripts.
 pub(crate) fn stop_word(stop: StopReason) -> &'static str {
     match stop {
         StopReason::Confident => "confident",

@@ -1,4 +1,4 @@
-//! Cameras that only rotated, or hardly moved: E and F fit then, but are meaningless.
+//! Cameras that only rotated or hardly moved, for which E and F are meaningless.
 
 use crate::failure::Failure;
 use epipole::camera::Camera;
@@ -67,7 +67,7 @@ pub(crate) fn left_open(
     Ok(found.map(|found| sentence_of_degeneracy(&found)))
 }
 
-/// The same for a homography, which is not determined by a line.
+/// Warning about inliers on a line, which do not determine a homography.
 pub(crate) fn left_open_by_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -91,24 +91,25 @@ pub(crate) fn left_open_by_homography(
     Ok(None)
 }
 
-/// Number of pixels on one line, if those beside it are too few to constrain the model there: a
-/// homography fits any two of them, with any mapping on the line.
+/// Number of pixels on one line, if too few others constrain the model: a homography fits any two
+/// of them, with any mapping on the line.
 fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
     const OTHERS: usize = 2;
-    /// Fewer lie on some line in any case.
+    /// Fewer lie on a line by chance.
     const LEAST: usize = 5;
     // If all but two lie on a line, nearly every sample finds it.
     let options = ransac
         .within(2.0 * ransac.max_error_px)
         .with_max_iterations(ransac.max_iterations.min(1000));
-    // Identical pixels have no line, and need no further warning.
+    // Identical pixels define no line and need no further warning.
     let lines = LineEstimator::new(pixels).ok()?;
     let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
     let are_alone = found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();
     are_alone.then_some(found.num_inliers)
 }
 
-/// Three matches that did not move make no model where down is known: that is the reason then.
+/// Adds the reason to a failure with known gravity: three matches that did not move define no
+/// model.
 pub(crate) fn if_unmoved(
     failure: Failure,
     pixels1: &[Point2<f64>],
@@ -125,7 +126,7 @@ pub(crate) fn if_unmoved(
     }
 }
 
-/// * `ransac`: the options that the model was found with
+/// * `ransac`: options of the search for the model
 fn judging(ransac: &RansacOptions) -> TwoViewOptions {
     TwoViewOptions::default().with_ransac(*ransac)
 }

@@ -1,18 +1,18 @@
-//! Units of pixels that do not fit their camera.
+//! Pixels in units that do not fit their camera.
 
 use crate::context::Context;
 use epipole::camera::Intrinsics;
 use nalgebra::Point2;
 
-/// Pixels within ± this are shares of an image or rays.
+/// Bound of coordinates that are fractions of an image or rays, not pixels.
 const SHARES: f64 = 2.0;
 
-/// A pixel this many times as far as the principal point is beyond the image.
+/// Factor of the principal point beyond which a pixel is outside the image.
 const BEYOND: f64 = 3.0;
 
-/// Warns of pixels that are none, where no camera is known.
+/// Warns of coordinates that are not pixels, without a camera.
 ///
-/// * `max_error_px`: largest error of an inlier: who gives a small one knows of the unit
+/// * `max_error_px`: maximum error of an inlier; a small one shows that the unit is intended
 pub(crate) fn warn_of_shares(pixels: &[&[Point2<f64>]], max_error_px: f64, context: &Context) {
     let all = pixels.iter().copied().flatten();
     let reach = all.map(|pixel| pixel.coords.amax()).fold(0.0, f64::max);
@@ -24,7 +24,7 @@ pub(crate) fn warn_of_shares(pixels: &[&[Point2<f64>]], max_error_px: f64, conte
     }
 }
 
-/// Warns of pixels that cannot be those of the camera.
+/// Warns of pixels that do not fit the camera.
 pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Context) {
     let center = k.principal_point();
     let reach = pixels

@@ -79,7 +79,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("ended by", outcome.termination))
 }
 
-/// Course of an adjustment, finished or canceled.
+/// Result of an adjustment, finished or canceled.
 struct Outcome {
     initial_cost: f64,
     final_cost: f64,
@@ -105,10 +105,10 @@ impl Outcome {
     }
 }
 
-/// Termination of a canceled loop, as a word for scripts.
+/// Termination of a canceled loop, for scripts.
 pub(super) const CANCELED: &str = "canceled";
 
-/// Error for a problem without an initial cost.
+/// Returns the error for a problem without an initial cost.
 fn cannot_begin(error: Error, path: &Path) -> Failure {
     match error {
         Error::NotFinite { .. } => Failure::new(
@@ -122,7 +122,7 @@ fn cannot_begin(error: Error, path: &Path) -> Failure {
     }
 }
 
-/// Why a loop ended, as a word for scripts.
+/// Returns the reason why a loop stopped, as a word for scripts.
 pub(super) fn termination(termination: Termination) -> &'static str {
     match termination {
         Termination::SmallGradient => "small-gradient",

@@ -126,7 +126,7 @@ fn draw_sheet(arguments: &Arguments, sheet: &Sheet) -> Result<Report, Failure> {
         .row("detect with", options))
 }
 
-/// Writes the page to the file, whose ending is the format.
+/// Writes the page in the format of the file extension.
 fn write(arguments: &Arguments, page: &Page) -> Result<(), Failure> {
     let extension = arguments.output.extension().and_then(|e| e.to_str());
     let bytes = match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -160,7 +160,7 @@ fn report(arguments: &Arguments, page: &Page, kind: String) -> Report {
         .row("written", arguments.output.display())
 }
 
-/// Options of `epipole calibrate` that describe the board.
+/// Returns the options of `epipole calibrate` that describe the board.
 fn calibrate_options(arguments: &Arguments, pattern: Pattern) -> String {
     let (columns, rows) = arguments.size;
     let meters = |mm: f64| format!("{:.6}", mm / 1000.0);
@@ -184,7 +184,7 @@ fn calibrate_options(arguments: &Arguments, pattern: Pattern) -> String {
     options
 }
 
-/// Sizes of the board, for its caption.
+/// Describes the sizes of the board, for its caption.
 fn sizes(arguments: &Arguments, pattern: Pattern) -> String {
     let ((columns, rows), side) = (arguments.size, arguments.square_mm);
     match pattern {

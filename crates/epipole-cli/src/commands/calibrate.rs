@@ -1,4 +1,4 @@
-//! `epipole calibrate`: a camera, or two, from photographs of a board.
+//! `epipole calibrate`: one or two cameras from photos of a board.
 
 mod search;
 
@@ -71,9 +71,9 @@ pub(crate) struct Arguments {
     reading: ReadArguments,
 }
 
-/// A rig is wrong if its error is so many times that of its worse camera,
+/// Ratio of a rig's error to that of its worse camera, above which the rig is wrong.
 const MUCH_WORSE: f64 = 4.0;
-/// which is at least this, pixels: noise of corners.
+/// Lower bound of the worse camera's error in that ratio, pixels: noise of corners.
 const LEAST_ERROR_PX: f64 = 0.2;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -148,10 +148,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report)
 }
 
-/// Format of the result, by the ending of its file.
+/// Returns the format for a file extension.
 ///
 /// # Errors
-/// A sentence, for the ending of another format.
+/// For other extensions.
 fn format_of(path: &Path) -> Result<CameraFormat, Failure> {
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
     match ending.to_str() {
@@ -164,7 +164,7 @@ fn format_of(path: &Path) -> Result<CameraFormat, Failure> {
     }
 }
 
-/// One camera with its photographs.
+/// One camera with its photos.
 struct Side {
     photographs: Photographs,
     found: Calibration,
@@ -186,7 +186,7 @@ impl Side {
         drop(progress);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);
-            // Why there are too few views is in those that failed.
+            // The failed views explain why there are too few.
             let message = match photographs.problems.iter().flatten().next() {
                 Some(problem) => format!("{}; {problem}", failure.message),
                 None if failure.kind == "too-few" => format!(

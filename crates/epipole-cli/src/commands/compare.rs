@@ -1,4 +1,4 @@
-//! `epipole compare`: how far an estimated trajectory is from the true one.
+//! `epipole compare`: errors of an estimated trajectory.
 
 mod associate;
 mod errors;
@@ -21,7 +21,7 @@ use nalgebra::{Point3, Similarity3, Vector3};
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Transformation of the estimate before errors are taken.
+/// Alignment of the estimate before errors are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Align {
     /// Position and orientation.
@@ -32,7 +32,7 @@ enum Align {
     None,
 }
 
-/// Beyond this ratio of sizes, the unit of length is another one.
+/// Ratio of sizes beyond which the units of length differ.
 const OTHER_UNIT: f64 = 1.2;
 
 /// Compare an estimated trajectory with ground truth.
@@ -191,7 +191,7 @@ fn centers(poses: &[RigidTransform]) -> Vec<Point3<f64>> {
     (poses.iter().map(|pose| pose.translation.vector.into())).collect()
 }
 
-/// Warns of an estimate in another unit, which no rigid alignment brings near.
+/// Warns of an estimate in another unit, which a rigid alignment cannot correct.
 fn warn_of_scale(
     estimates: &[RigidTransform],
     truths: &[RigidTransform],
@@ -210,7 +210,7 @@ fn warn_of_scale(
         let middle = Point3::from(sum / all.len() as f64);
         all.iter().map(|at| (at - middle).norm()).sum()
     };
-    // The ratio of the sizes counts the errors, too: both must say so.
+    // Errors change the ratio of sizes too, so both must agree.
     let (scale, ratio) = (similar.scaling(), size(truths) / size(estimates));
     let is_other = |x: f64| x.is_finite() && !(1.0 / OTHER_UNIT..OTHER_UNIT).contains(&x);
     if is_other(scale) && is_other(ratio) {
@@ -221,7 +221,7 @@ fn warn_of_scale(
     }
 }
 
-/// `truth_from_estimate`.
+/// Returns `truth_from_estimate`.
 fn align(
     estimates: &[RigidTransform],
     truths: &[RigidTransform],

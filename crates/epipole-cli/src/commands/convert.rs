@@ -121,7 +121,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report.row("written", format!("{kind}: {}", written.join(", "))))
 }
 
-/// Refuses to write over what was read: a format keeps only what it has.
+/// Refuses to overwrite the input, because the new format may hold less.
 fn check_other(arguments: &Arguments, content: &Content, target: Target) -> Result<(), Failure> {
     let whole = |path: &Path| path.canonicalize().ok();
     let (input, output) = (&arguments.input, &arguments.output);
@@ -140,7 +140,7 @@ fn check_other(arguments: &Arguments, content: &Content, target: Target) -> Resu
     }
 }
 
-/// The file of a format that has one, for standard output.
+/// Returns the file of a single-file format, for standard output.
 fn only(files: Vec<ModelFile>, format: ModelFormat) -> Result<ModelFile, Failure> {
     let [file] = <[ModelFile; 1]>::try_from(files).map_err(|files| {
         let name = format.name();

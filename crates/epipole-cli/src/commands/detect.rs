@@ -1,4 +1,4 @@
-//! `epipole detect`: the features or markers of a photograph.
+//! `epipole detect`: the features or markers of an image.
 
 use crate::context::Context;
 use crate::failure::Failure;

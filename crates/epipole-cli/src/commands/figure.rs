@@ -79,7 +79,7 @@ fn size(text: &str) -> Result<Size, String> {
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     let mut figure = Figure::new(&arguments.name)?;
-    // A bad value is an error here, as the picture would not be the requested one.
+    // A bad value is an error, because the picture would not be the requested one.
     if let Some(problem) = figure.apply(&arguments.set).into_iter().next() {
         return Err(problem.into());
     }
@@ -112,7 +112,7 @@ fn draw(figure: &mut Figure, arguments: &Arguments) -> Result<RgbaImage, Failure
     });
     let mut width = size.width;
     if let Some(height) = size.height {
-        // The widest picture that is low enough.
+        // The widest picture within the height.
         while width > 16.0 && figure.layout(width).height > height {
             width -= 1.0;
         }

@@ -1,4 +1,4 @@
-//! `epipole fit`: a model through matches or points of which some are wrong.
+//! `epipole fit`: a model fitted to matches or points with outliers.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -88,7 +88,7 @@ struct Found {
     stop: StopReason,
     could_be_chance: bool,
     num_left_out: usize,
-    /// For F and H: what the inliers leave open, if anything.
+    /// For F and H: the part that the inliers do not determine, if any.
     not_determined: Option<Option<String>>,
     max_error_px: f64,
     errors_px: Vec<f64>,
@@ -175,7 +175,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     Ok(report)
 }
 
-/// Too few are left where the core left rows out, which then is what to look into.
+/// Adds the number of rows that the core left out to a failure for too few rows.
 fn with_left_out(failure: Failure, model: Model, pixels: [&[Point2<f64>]; 2]) -> Failure {
     let farthest_px = match model {
         Model::Line => f64::MAX,
@@ -244,7 +244,7 @@ fn fit(
             let k2 = arguments.k2.unwrap_or(k1);
             warn_of_units(pixels1, &k1, context);
             warn_of_units(pixels2, &k2, context);
-            // A list of pixels does not tell the size of the images, and no estimator asks for it.
+            // The size of the images is unknown, and no estimator uses it.
             let cameras = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
             let cameras = cameras.each_ref();
             let found = match (&arguments.gravity, &arguments.gravity2) {
@@ -284,7 +284,7 @@ fn fit(
     }
 }
 
-/// With what the inliers leave open, warned of where they are no chance.
+/// Records what the inliers do not determine, and warns of it if they are significant.
 fn told(found: Found, open: Option<String>, context: &Context) -> Found {
     if let (Some(sentence), false) = (&open, found.could_be_chance) {
         context.warn(sentence);

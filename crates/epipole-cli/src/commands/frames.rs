@@ -1,4 +1,4 @@
-//! `epipole frames`: the sharpest of many pictures that follow each other.
+//! `epipole frames`: the sharpest frames of a video.
 
 use crate::context::Context;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! `epipole inspect`: contents, conventions and oddities of a file or folder.
+//! `epipole inspect`: content, conventions and oddities of a file or folder.
 
 mod other;
 
@@ -60,10 +60,10 @@ pub(crate) fn run(arguments: &Arguments, _: &Context) -> Result<Report, Failure>
     }
 }
 
-/// Cameras of a file that leaves the image size out.
+/// Reads the cameras of a file without the image size.
 ///
 /// # Errors
-/// Another fault of the file.
+/// For other faults of the file.
 fn without_size(bytes: &[u8]) -> epipole_io::Result<Content> {
     let (format, mut cameras) = read_cameras(bytes, Some((0, 0)))?;
     let note = "the file has no image size: --camera takes that of the image";
@@ -164,7 +164,7 @@ fn of_cameras(report: Report, format: CameraFormat, cameras: &Cameras) -> Report
     }
 }
 
-/// Kind and coefficients of a lens.
+/// Describes the kind and the coefficients of a lens.
 fn lens(camera: &Camera) -> String {
     if camera.is_pinhole() {
         return "no distortion".to_owned();

@@ -1,4 +1,4 @@
-//! `epipole manual`: pages for `man`, and completions for shells.
+//! `epipole manual`: man pages and shell completions.
 
 use crate::failure::Failure;
 use crate::files;

@@ -1,4 +1,4 @@
-//! `epipole match`: features of two photographs that look alike.
+//! `epipole match`: matching features of two images.
 
 use crate::camera::{self, CameraArguments};
 use crate::context::Context;

@@ -24,7 +24,7 @@ use epipole_io::mesh::{write_mesh_glb, write_mesh_obj, write_mesh_ply};
 use epipole_io::model::{Model, ModelFormat, ModelImage};
 use serde_json::{Value, json};
 
-/// Shares of the work after which views are prepared, depth maps estimated and fused.
+/// Fractions of the work after which views are prepared, and depth maps estimated and fused.
 const PREPARED: f32 = 0.02;
 const ESTIMATED: f32 = 0.9;
 const FUSED: f32 = 0.94;
@@ -133,7 +133,7 @@ impl MeshFormat {
     }
 }
 
-/// Cameras of the depth maps, without points.
+/// Returns the cameras of the depth maps as a model without points.
 fn undistorted<'a>(views: &[MvsView], name: &dyn Fn(&MvsView) -> &'a str) -> Model {
     let mut model = Model::default();
     for (index, view) in views.iter().enumerate() {

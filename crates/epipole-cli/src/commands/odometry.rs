@@ -99,9 +99,9 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Options of odometry.
+    /// Returns the options of odometry.
     ///
-    /// * `some_unknown`: whether the focal length is but a guess
+    /// * `some_unknown`: whether the focal length is a guess
     fn options(&self, context: &Context, some_unknown: bool) -> OdometryOptions {
         let accepted = self.accept.options(&self.robust, context);
         OdometryOptions::default()
@@ -111,10 +111,10 @@ impl Arguments {
     }
 }
 
-/// Frames are many and alike: fewer features than of photographs do.
+/// Default maximum number of features, lower than for photos because frames are many and similar.
 const MAX_FEATURES: &str = "3000";
 
-/// The shares of the work at which features, and then matches, are done.
+/// Fractions of the work after which features, and then matches, are done.
 const DETECTED: f32 = 0.5;
 const MATCHED: f32 = 0.7;
 
@@ -130,7 +130,7 @@ struct Work<'a> {
 struct Frames {
     features: Vec<PhotoFeatures>,
     camera: Camera,
-    /// Of a focal length that nobody gave.
+    /// The guessed focal length, unless one is given.
     guess: Option<Guess>,
     lens: Option<KeptLens>,
 }
@@ -191,7 +191,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     }
 }
 
-/// Text of the trajectory of the frames that were placed.
+/// Returns the text of the trajectory of the placed frames.
 fn trajectory(path: &Path, listed: &[Listed], result: &OdometryResult) -> Result<String, Failure> {
     let names: Vec<&str> = listed.iter().map(|frame| &*frame.name).collect();
     let counted = || (0..).step_by(1_000_000_000).take(names.len()).collect();
@@ -213,7 +213,7 @@ fn trajectory(path: &Path, listed: &[Listed], result: &OdometryResult) -> Result
 }
 
 impl Work<'_> {
-    /// Options of odometry and of the camera.
+    /// Returns the options of odometry and of the camera.
     fn options(&self, frames: &Frames) -> OdometryOptions {
         let guesses = frames.guess.as_slice();
         let options = (self.arguments).options(self.context, some_unknown(guesses));
@@ -232,7 +232,7 @@ impl Work<'_> {
         options
     }
 
-    /// The features of all pictures, one in memory at a time, and the camera that they share.
+    /// Reads the features of all frames, one image in memory at a time, and their camera.
     fn read(&self, listed: &[Listed]) -> Result<Frames, Failure> {
         let file = self.arguments.camera_file.as_ref();
         let first = listed.first().map(|one| one.path.as_path());
@@ -285,7 +285,7 @@ impl Work<'_> {
         frames.ok_or_else(|| Failure::new("too-few", "a path needs frames"))
     }
 
-    /// A frame, which keeps what the lens did.
+    /// Reads a frame and keeps its distortion.
     fn photo(&self, path: &Path, camera: Option<&Camera>) -> Result<Photo, Failure> {
         let size = self.arguments.size;
         let Some(camera) = camera else {
@@ -343,7 +343,7 @@ impl Work<'_> {
         loop {
             match run.step(monitor) {
                 Ok(Some(_)) => {}
-                // Ctrl-C ends the path where it is.
+                // Ctrl-C ends the path here.
                 Ok(None) | Err(epipole::Error::Canceled) => return Ok(run.finish()),
                 Err(error) => return Err(error.into()),
             }
@@ -352,7 +352,7 @@ impl Work<'_> {
 }
 
 /// * `metric`: whether the path has a unit of length
-/// * `refined_from_px`: the focal length before it was refined, if it was
+/// * `refined_from_px`: the focal length before refinement, if it was refined
 fn report(
     result: &OdometryResult,
     listed: &[Listed],

@@ -1,4 +1,4 @@
-//! `epipole posegraph`: poses that agree with measurements between them.
+//! `epipole posegraph`: optimization of a pose graph.
 
 use super::ba::{CANCELED, termination};
 use crate::context::Context;

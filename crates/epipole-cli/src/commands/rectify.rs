@@ -1,4 +1,4 @@
-//! `epipole rectify`: two photographs turned so that matches share a row.
+//! `epipole rectify`: two images transformed so that matches share a row.
 
 mod rig;
 
@@ -80,14 +80,14 @@ struct Found {
     homographies: [Matrix3<f64>; 2],
     maps: [PixelMap; 2],
     q: Option<Matrix4<f64>>,
-    /// `None` where no matches were looked for.
+    /// `None` without matching.
     num_inliers: Option<usize>,
     /// Whether matches share a column instead of a row.
     is_vertical: bool,
 }
 
 impl Arguments {
-    /// Options of the rectification.
+    /// Returns the options of the rectification.
     fn shape(&self) -> RectifyOptions {
         RectifyOptions::default()
             .with_alpha(self.alpha)
@@ -146,8 +146,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("files", written))
 }
 
-/// The two photographs, how they are rectified by what matches in them, and how many matches there
-/// are.
+/// Rectifies two photos by their matches. Returns the photos, the rectification and the number of
+/// matches.
 fn by_matches(
     arguments: &Arguments,
     context: &Context,
@@ -232,7 +232,7 @@ fn rectify(
     })
 }
 
-/// Rectification of two known cameras.
+/// Rectifies two known cameras.
 fn calibrated(
     arguments: &Arguments,
     cameras: &[Camera; 2],

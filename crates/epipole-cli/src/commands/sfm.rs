@@ -1,4 +1,4 @@
-//! `epipole sfm`: cameras and points from photographs.
+//! `epipole sfm`: cameras and points from photos.
 
 mod arguments;
 pub(crate) mod growth;
@@ -155,7 +155,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             Some(false) => "not determined: ",
             _ => "",
         };
-        // One factor for all of this lens.
+        // One factor for all photos of this lens.
         report = report.row(
             "focal length",
             format!(
@@ -195,11 +195,11 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .row("written", written.join(", ")))
 }
 
-/// Share of the work after which all photographs are matched, and after which all are registered.
+/// Fractions of the work after which all photos are matched, and registered.
 const MATCHED: f32 = 0.6;
 const REFINED: f32 = 0.95;
 
-/// Reconstructs; Ctrl-C ends it with what there is.
+/// Reconstructs; Ctrl-C ends with the result so far.
 fn grown(
     input: &SfmInput,
     options: &SfmOptions,
@@ -215,7 +215,7 @@ fn grown(
     }
 }
 
-/// Why there is nothing, by the photograph that came farthest.
+/// Explains an empty result, by the photo that came farthest.
 fn no_start(
     input: &SfmInput,
     options: &SfmOptions,

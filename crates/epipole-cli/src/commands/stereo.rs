@@ -71,7 +71,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// The smallest disparity, and how many are looked for.
+    /// Returns the minimum disparity and the number of disparities.
     fn disparities(&self) -> Result<(i32, u32), Failure> {
         let count = self.max_disparity - self.min_disparity + 1;
         match u32::try_from(count) {
@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let q = arguments.cloud.matrix(photos[0].color.dimensions())?;
     let [left, right] = photos.each_ref().map(Photo::gray_u8);
     let range = (arguments.min_disparity, arguments.max_disparity);
-    // Nobody would read it.
+    // The check only warns.
     if !context.quiet {
         pair::check(&photos, range, context)?;
     }

@@ -1,4 +1,4 @@
-//! `epipole stitch`: one picture of photos from one place, or of one plane.
+//! `epipole stitch`: a panorama of photos from one viewpoint, or of one plane.
 
 mod arguments;
 mod input;

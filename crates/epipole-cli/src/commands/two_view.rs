@@ -1,4 +1,4 @@
-//! `epipole two-view`: the geometry of two photographs.
+//! `epipole two-view`: the geometry of two images.
 
 mod arguments;
 mod errors;

@@ -1,4 +1,4 @@
-//! `epipole undistort`: photographs as a camera without distortion shows them.
+//! `epipole undistort`: images without lens distortion.
 
 use crate::context::Context;
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! The options of features that only one of the kinds knows.
+//! Options that apply to a single kind of features.
 
 use super::numbers::{above_0_up_to_1, number};
 use crate::matrices::not_negative;
@@ -54,7 +54,7 @@ pub(super) struct KindArguments {
 }
 
 impl KindArguments {
-    /// With what all kinds know.
+    /// Adds the options of single kinds to the common ones.
     pub(super) fn options(&self, common: FeatureOptions) -> FeatureOptions {
         common
             .with_max_upsampled_pixels(self.max_upsampled_pixels)

@@ -1,10 +1,10 @@
 //! Numbers of single precision on the command line.
 
-/// Reads a number that `fits`, or names the `range` it is to be in.
+/// Reads a number that `fits`; the error names the `range`.
 pub(super) fn number(text: &str, fits: impl Fn(f32) -> bool, range: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(value) if fits(value) && value.is_finite() => Ok(value),
-        // Beyond what fits 32 bits, as 1e60.
+        // Too large for 32 bits, such as 1e60.
         Ok(value) if fits(value) && text.parse::<f64>().is_ok_and(f64::is_finite) => {
             Err(format!("\"{text}\" is too large: at most 3e38"))
         }

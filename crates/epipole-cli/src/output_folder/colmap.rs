@@ -1,16 +1,16 @@
-//! Files that COLMAP would read in place of, or together with, those that are written.
+//! Existing files that COLMAP would read instead of, or along with, the written ones.
 
 use super::OutputFolder;
 use crate::failure::Failure;
 use epipole_io::model::ModelFormat;
 
-/// Refuses to write a COLMAP model beside files of another one that COLMAP would read: binary files
-/// before text, and `rigs` and `frames`, whose IDs are those of the other model.
+/// Refuses to write a COLMAP model beside files of another model that COLMAP would read: binary
+/// files, which it prefers to text, and `rigs` and `frames`, which have IDs of the other model.
 ///
-/// * `below`: where in the folder, empty or ending in `/`
+/// * `below`: path in the folder, empty or ending in `/`
 ///
 /// # Errors
-/// A sentence naming the file.
+/// A failure naming the file.
 pub(crate) fn check_foreign(
     output: &OutputFolder,
     below: &str,

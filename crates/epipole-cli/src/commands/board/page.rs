@@ -4,7 +4,7 @@ use super::paper::Paper;
 use crate::failure::Failure;
 use epipole::calibration::BoardDrawing;
 
-/// Free margin of the paper, which printers cannot reach.
+/// Margin of the paper, which printers cannot reach.
 const MARGIN_MM: f64 = 6.0;
 /// Height of a line of the caption.
 const LINE_MM: f64 = 3.5;
@@ -16,7 +16,7 @@ const GAP_MM: f64 = 4.0;
 const TEXT_MM: f64 = 2.6;
 /// Largest size of the number of a marker.
 const LABEL_MM: f64 = 2.0;
-/// Width of a letter as a share of the text's size, at most on average.
+/// Upper bound of the mean letter width, relative to the text size.
 const LETTER: f64 = 0.56;
 /// Longest ruler.
 const RULER_LENGTH_MM: f64 = 100.0;
@@ -36,7 +36,7 @@ pub(super) struct Text {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Page {
     pub(super) paper_mm: [f64; 2],
-    /// Width and height of what is black of the board.
+    /// Width and height of the black area of the board.
     pub(super) board_mm: [f64; 2],
     /// Left, top, width and height.
     pub(super) rectangles: Vec<[f64; 4]>,
@@ -46,13 +46,13 @@ pub(super) struct Page {
 }
 
 impl Page {
-    /// The drawing in the middle, the caption and a ruler below.
+    /// Centers the drawing, with the caption and a ruler below.
     ///
     /// * `labels`: texts on the drawing and the left end of their baselines, squares
     /// * `mm`: side of a square
     ///
     /// # Errors
-    /// A sentence if the board does not fit.
+    /// If the board does not fit.
     pub(super) fn new(
         drawing: &BoardDrawing,
         labels: &[([f64; 2], String)],
@@ -120,7 +120,7 @@ impl Page {
         }
         let steps = (width.min(RULER_LENGTH_MM) / 10.0).floor();
         let y = top + LINE_MM * caption.len() as f64 + 0.5;
-        // Ticks begin where the ruler begins and end where it ends.
+        // The outer ticks are flush with the ends of the ruler.
         self.rectangles.push([MARGIN_MM, y, 10.0 * steps, THIN_MM]);
         for step in 0..=steps as u32 {
             let height = if step % 5 == 0 { 2.5 } else { 1.5 };
@@ -139,9 +139,9 @@ impl Page {
     }
 }
 
-/// The paper, turned if that helps, and the room for the board, millimeters.
+/// Returns the size of the paper, rotated if that helps, and the room for the board, millimeters.
 ///
-/// * `square_mm`: for advice
+/// * `square_mm`: side of a square, for the advice in the error
 fn fitting(
     board_mm: [f64; 2],
     paper: Paper,
@@ -156,7 +156,7 @@ fn fitting(
             paper[1] - 2.0 * MARGIN_MM - footer_mm,
         ]
     };
-    // Largest factor by which the board may grow.
+    // Largest possible scale of the board.
     let share = |paper: [f64; 2]| {
         let [width, height] = room(paper);
         (width / board_mm[0]).min(height / board_mm[1])

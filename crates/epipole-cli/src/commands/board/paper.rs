@@ -5,7 +5,7 @@
 pub(super) struct Paper {
     pub(super) width_mm: f64,
     pub(super) height_mm: f64,
-    /// Whether it may be turned by a quarter.
+    /// Whether it may be rotated by 90°.
     pub(super) turns: bool,
 }
 

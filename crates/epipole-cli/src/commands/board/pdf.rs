@@ -4,10 +4,10 @@ use super::page::Page;
 use pdf_writer::{Content, Finish, Name, Pdf, Rect, Ref, Str};
 
 const POINTS_PER_MM: f64 = 72.0 / 25.4;
-/// Distance of the control points of a quarter of a unit circle.
+/// Distance of the control points of a quarter of the unit circle.
 const QUARTER: f64 = 0.552_284_75;
 
-/// The file.
+/// Writes the page.
 pub(super) fn pdf(page: &Page) -> Vec<u8> {
     let [catalog, pages, sheet, font, contents] = [1, 2, 3, 4, 5].map(Ref::new);
     let [width, height] = page.paper_mm.map(|side| (side * POINTS_PER_MM) as f32);
@@ -27,7 +27,7 @@ pub(super) fn pdf(page: &Page) -> Vec<u8> {
 fn content(page: &Page) -> Vec<u8> {
     let mut content = Content::new();
     let points = |mm: f64| (mm * POINTS_PER_MM) as f32;
-    // PDF counts upwards from the lower left corner.
+    // The origin of PDF is the lower left corner.
     let up = |y: f64| points(page.paper_mm[1] - y);
     for [x, y, width, height] in &page.rectangles {
         content.rect(points(*x), up(y + height), points(*width), points(*height));
@@ -45,7 +45,7 @@ fn content(page: &Page) -> Vec<u8> {
         }
         content.close_path();
     }
-    // One path: no seams between rectangles that touch.
+    // One path, to avoid seams between touching rectangles.
     content.fill_nonzero();
     for text in &page.texts {
         content

@@ -1,4 +1,4 @@
-//! A page as PNG, each pixel the share of it that is white.
+//! A page as antialiased PNG.
 
 use super::page::{Page, Text};
 use crate::failure::Failure;
@@ -15,7 +15,7 @@ const SAMPLES: u32 = 8;
 /// Bytes of a PNG before the chunk that follows its header.
 const HEADER: usize = 33;
 
-/// The file, which knows its resolution.
+/// Writes the page with its resolution.
 ///
 /// # Errors
 /// If it has too many pixels.
@@ -66,7 +66,7 @@ pub(super) fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, Failure> {
     Ok(bytes)
 }
 
-/// Length of a pixel's side that lies between two places.
+/// Returns the length of a pixel's overlap with an interval.
 fn overlap(pixel: u32, from: f64, to: f64) -> f64 {
     let first = f64::from(pixel);
     ((first + 1.0).min(to) - first.max(from)).max(0.0)
@@ -83,7 +83,7 @@ fn share_in_disk(u: u32, v: u32, [x, y]: [f64; 2], radius: f64) -> f64 {
     inside as f64 / f64::from(SAMPLES * SAMPLES)
 }
 
-/// Draws a line of text in a strip of its own, and darkens the picture by it.
+/// Draws a line of text in a separate strip, and darkens the image by it.
 fn draw_text(gray: &mut GrayImage, text: &Text, scale: f64) -> Result<(), Failure> {
     let size = text.size * scale;
     let width = (f64::from(gray.width()) - text.x * scale).max(1.0);

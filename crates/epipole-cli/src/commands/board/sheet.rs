@@ -7,7 +7,7 @@ use clap::Args;
 use epipole::calibration::{BoardDrawing, MarkerDictionary};
 use nalgebra::Point2;
 
-/// Gap between markers as a share of their side, unless given.
+/// Default gap between markers, relative to their side.
 const GAP_SHARE: f64 = 0.25;
 
 /// Markers in place of a board.
@@ -30,21 +30,21 @@ pub(super) struct SheetArguments {
 pub(super) struct Sheet {
     pub(super) dictionary: MarkerDictionary,
     pub(super) drawing: BoardDrawing,
-    /// Numbers and where they are written.
+    /// IDs and their positions.
     pub(super) labels: Vec<([f64; 2], String)>,
-    /// First and last number.
+    /// First and last ID.
     pub(super) ids: [usize; 2],
     pub(super) gap_mm: f64,
 }
 
 impl SheetArguments {
-    /// The sheet, if one is asked for.
+    /// Returns the sheet, if requested.
     ///
     /// * `size`: columns and rows
-    /// * `side_mm`: of a marker
+    /// * `side_mm`: side of a marker
     ///
     /// # Errors
-    /// A sentence for numbers that the dictionary does not have, and for a gap of less than a bit.
+    /// For numbers that the dictionary does not have, and for a gap of less than a bit.
     pub(super) fn sheet(
         &self,
         (columns, rows): (usize, usize),
@@ -88,7 +88,7 @@ impl SheetArguments {
             let cells = dictionary.black_cells(id, 1);
             let rectangles = cells.into_iter().flatten().map(|ends| ends.map(corner));
             sheet.drawing.rectangles.extend(rectangles);
-            // In the lower half of the gap: the rim of the marker stays white.
+            // In the lower half of the gap, to keep the rim of the marker white.
             (sheet.labels).push(([left, top + 1.0 + 0.9 * gap], id.to_string()));
         }
         Ok(Some(sheet))

@@ -3,7 +3,7 @@
 use super::page::Page;
 use std::fmt::Write;
 
-/// The file.
+/// Writes the page.
 pub(super) fn svg(page: &Page) -> String {
     let [width, height] = page.paper_mm;
     let mut path = String::new();

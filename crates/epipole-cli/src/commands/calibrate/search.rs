@@ -1,4 +1,4 @@
-//! The boards in photographs.
+//! Boards in photos.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -16,12 +16,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub(super) struct Photographs {
     pub(super) names: Vec<String>,
     pub(super) views: Vec<Option<BoardView>>,
-    /// Why there is no view, with the name of the file.
+    /// Reason for a missing view, with the name of the file.
     pub(super) problems: Vec<Option<String>>,
     pub(super) size: (u32, u32),
 }
 
-/// Looks for the board in every photograph.
+/// Searches every photo for the board.
 pub(super) fn search(
     photos: &[Listed],
     reading: ReadArguments,

@@ -1,4 +1,4 @@
-//! Poses of two trajectories that belong together.
+//! Association of the poses of two trajectories.
 
 use super::poses::Poses;
 use crate::failure::Failure;
@@ -13,13 +13,13 @@ pub(super) struct Association {
     pub(super) by: &'static str,
 }
 
-/// Nearest poses in time, images of equal names, or poses of equal number if there are neither
-/// times nor names.
+/// Pairs poses by nearest time, images by name, or poses by index if there are neither times nor
+/// names.
 ///
-/// * `max_difference_s`: seconds; `None` for numbers in any case
+/// * `max_difference_s`: seconds; `None`: always by index
 ///
 /// # Errors
-/// A sentence, if no times are near, no names are equal, or numbers of poses differ.
+/// If no times are near, no names are equal, or the numbers of poses differ.
 pub(super) fn associate(
     both: &[Poses; 2],
     max_difference_s: Option<f64>,
@@ -35,7 +35,7 @@ pub(super) fn associate(
     let times = (&truth.stamps_ns, &estimate.stamps_ns, max_difference_s);
     if let (Some(truth), Some(estimate), Some(max_difference_s)) = times {
         let max_ns = max_difference_s * 1e9;
-        // As evo does: each pose of the shorter one, the first trajectory if they are equally long.
+        // As in evo: each pose of the shorter trajectory, the first one if the lengths are equal.
         let pairs: Vec<(usize, usize)> = match estimate.len() > truth.len() {
             true => nearest(truth, estimate, max_ns),
             false => (nearest(estimate, truth, max_ns).into_iter())
@@ -63,7 +63,7 @@ pub(super) fn associate(
 /// Part of a name that two images have in common.
 type Key<'a> = &'a dyn Fn(&String) -> Option<String>;
 
-/// Images of equal names, or else of names that differ in folder and ending only.
+/// Pairs images by name, or else by name without folder and extension.
 fn by_name(first: &[String], second: &[String]) -> Result<Vec<(usize, usize)>, Failure> {
     let stem = |name: &String| {
         Path::new(name)
@@ -92,7 +92,8 @@ fn by_name(first: &[String], second: &[String]) -> Result<Vec<(usize, usize)>, F
     Err(Failure::new("too-few", message))
 }
 
-/// The nearest of `long` for each of `short`, if it is near enough; the earlier of two.
+/// Returns the nearest of `long` for each of `short`, if it is near enough; the earlier of two
+/// equally near.
 fn nearest(short: &[i64], long: &[i64], max_ns: f64) -> Vec<(usize, usize)> {
     let mut pairs = Vec::new();
     for (i, &time) in short.iter().enumerate() {

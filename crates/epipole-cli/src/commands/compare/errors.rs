@@ -12,7 +12,7 @@ pub(super) struct Statistics {
     /// Root of the mean square.
     pub(super) rmse: f64,
     pub(super) mean: f64,
-    /// The mean of the two middle ones of an even number.
+    /// Of an even number, the mean of the two middle values.
     pub(super) median: f64,
     /// Of the population.
     pub(super) std: f64,
@@ -51,7 +51,7 @@ impl Statistics {
 }
 
 impl PoseErrors {
-    /// * `errors`: what remains of each estimated pose, at least one
+    /// * `errors`: relative motion of each estimated pose from the true one, at least one
     fn new(errors: &[RigidTransform]) -> Self {
         let translations = errors.iter().map(|e| e.translation.vector.norm());
         let rotations = errors.iter().map(|e| e.rotation.angle().to_degrees());
@@ -62,7 +62,7 @@ impl PoseErrors {
     }
 }
 
-/// Errors `Qᵢ⁻¹ Pᵢ` of poses in one frame.
+/// Returns the errors `Qᵢ⁻¹ Pᵢ` of poses in one frame.
 ///
 /// * `truth`, `estimate`: `world_from_cam` of the same poses, at least one
 pub(super) fn absolute_errors(truth: &[RigidTransform], estimate: &[RigidTransform]) -> PoseErrors {
@@ -72,7 +72,8 @@ pub(super) fn absolute_errors(truth: &[RigidTransform], estimate: &[RigidTransfo
     PoseErrors::new(&errors)
 }
 
-/// Errors `(Qᵢ⁻¹ Qᵢ₊ₛ)⁻¹ (Pᵢ⁻¹ Pᵢ₊ₛ)` of all motions over `step` poses; `None` if there is none.
+/// Returns the errors `(Qᵢ⁻¹ Qᵢ₊ₛ)⁻¹ (Pᵢ⁻¹ Pᵢ₊ₛ)` of all motions over `step` poses; `None` if there
+/// is none.
 pub(super) fn relative_errors(
     truth: &[RigidTransform],
     estimate: &[RigidTransform],

@@ -14,10 +14,10 @@ const HEIGHT: f64 = 800.0;
 pub(super) struct Plot<'a> {
     /// Names of the files.
     pub(super) names: [String; 2],
-    /// Centers of the cameras, as many of each.
+    /// Centers of the cameras, equally many of both trajectories.
     pub(super) truth: &'a [Point3<f64>],
     pub(super) estimate: &'a [Point3<f64>],
-    /// Seconds from the first pose, or numbers of poses; ascending.
+    /// Seconds from the first pose, or indices of poses; ascending.
     pub(super) at: &'a [f64],
     /// Name and unit of `at`.
     pub(super) at_label: &'a str,
@@ -25,7 +25,7 @@ pub(super) struct Plot<'a> {
 }
 
 impl Plot<'_> {
-    /// The file. The view is along the axis on which the true path extends least.
+    /// Draws the plot. The view is along the axis on which the true path extends least.
     pub(super) fn svg(&self) -> String {
         let [x, y] = ground(self.truth);
         let path = |points: &[Point3<f64>]| points.iter().map(|p| [p[x], p[y]]).collect::<Vec<_>>();
@@ -65,13 +65,13 @@ impl Plot<'_> {
     }
 }
 
-/// The two axes on which a path extends most, in their order.
+/// Returns the two axes on which a path extends most, in order.
 fn ground(points: &[Point3<f64>]) -> [usize; 2] {
     let extent = |axis: usize| {
         let [low, high] = range(points.iter().map(|p| p[axis]));
         high - low
     };
-    // Of equal extents the last axis is up.
+    // If extents are equal, the last axis is up.
     let up = (0..3)
         .rev()
         .min_by(|&a, &b| extent(a).total_cmp(&extent(b)));
@@ -183,7 +183,7 @@ impl Chart {
     }
 }
 
-/// Round values within a range, with their labels.
+/// Returns round values within a range, with their labels.
 fn ticks([low, high]: [f64; 2]) -> Vec<(f64, String)> {
     let rough = (high - low) / 6.0;
     let exponent = libm::floor(libm::log10(rough));

@@ -19,7 +19,8 @@ impl Poses {
     /// Reads a trajectory, or else a model.
     ///
     /// # Errors
-    /// A sentence that names the path; of a file that is neither, why it is no trajectory.
+    /// A failure that names the path; for a file that is neither, the reason why it is no
+    /// trajectory.
     pub(super) fn read(path: &Path) -> Result<Self, Failure> {
         if path.is_dir() {
             return Self::of_model(model::read(path)?, path);
@@ -38,7 +39,7 @@ impl Poses {
         }
     }
 
-    /// The images in the natural order of their names.
+    /// Returns the poses of the images, in the natural order of their names.
     fn of_model(read: ReadModel, path: &Path) -> Result<Self, Failure> {
         let mut images = read.model.images;
         if images.is_empty() {

@@ -8,7 +8,7 @@ use epipole_io::model::ModelFormat;
 use epipole_io::trajectory::TrajectoryFormat;
 use std::path::Path;
 
-/// Formats that are written.
+/// Formats of the output.
 #[derive(Debug, Clone, Copy, PartialEq, ValueEnum)]
 pub(super) enum Format {
     ColmapText,
@@ -66,8 +66,8 @@ impl From<Format> for Target {
 }
 
 impl Target {
-    /// The format that a name asks for, given what is written; `None` for a folder, or without an
-    /// ending that stands for a format.
+    /// Returns the format for a file name and its content; `None` for a folder or an unknown
+    /// extension.
     pub(super) fn of_name(output: &Path, content: &Content) -> Option<Self> {
         if output.is_dir() {
             return None;
@@ -96,10 +96,10 @@ impl Target {
         Some(format.into())
     }
 
-    /// The format of what is written to a name without one.
+    /// Returns the default format for a name without one.
     ///
     /// # Errors
-    /// A sentence, where there is none.
+    /// If there is none.
     pub(super) fn usual(output: &Path, content: &Content) -> Result<Self, Failure> {
         let looks_like_file = output.extension().is_some() && !output.is_dir();
         match content {

@@ -7,7 +7,7 @@ use crate::output_folder::colmap::check_foreign;
 use epipole_io::model::{ModelFile, ModelFormat};
 use std::path::{Path, PathBuf};
 
-/// The first file gets the name given; others, which it names, stand beside it.
+/// Writes the first file under the given name, and the files that it names beside it.
 pub(super) fn write_file(path: &Path, files: Vec<ModelFile>) -> Result<Vec<String>, Failure> {
     let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
     if !folder.as_os_str().is_empty() {

@@ -1,4 +1,4 @@
-//! Files that are no model, cameras or trajectory: photographs, disparities, problems, tables.
+//! Files other than models, cameras and trajectories: photos, disparities, problems, tables.
 
 use crate::failure::Failure;
 use crate::report::Report;
@@ -20,7 +20,7 @@ struct Found {
     notes: Vec<String>,
 }
 
-/// Pixels of a table.
+/// Pixel convention of a table.
 const PIXELS: &str = "pixel centers at integers, (u, v) is (column, row)";
 
 impl Found {
@@ -42,10 +42,10 @@ impl Found {
     }
 }
 
-/// Describes a photograph, a PFM file, a pose graph or a BAL problem; `None` for another file.
+/// Describes a photo, a PFM file, a pose graph or a BAL problem; `None` for another file.
 ///
 /// # Errors
-/// A sentence that names the path, where such a file is wrong.
+/// A failure that names the path, if the file is malformed.
 pub(super) fn by_first_bytes(path: &Path, bytes: &[u8]) -> Option<Described> {
     let text = std::str::from_utf8(bytes).unwrap_or_default();
     let found = if bytes.starts_with(b"Pf\n") || bytes.starts_with(b"PF\n") {
@@ -63,7 +63,7 @@ pub(super) fn by_first_bytes(path: &Path, bytes: &[u8]) -> Option<Described> {
     Some(found.map(Found::report).map_err(about))
 }
 
-/// A report, or a sentence.
+/// A report or a failure.
 type Described = std::result::Result<Report, Failure>;
 
 /// Describes a table of points or matches; `None` for another file.

@@ -1,4 +1,4 @@
-//! Features of a model's images, and the points that they see.
+//! Features of a model's images, with the points they observe.
 
 use super::arguments::Arguments;
 use crate::context::Context;
@@ -18,7 +18,7 @@ use std::path::Path;
 /// Maximum distance of a feature from an observation of a point, pixels.
 const NEAR_PX: f64 = 1.5;
 
-/// A smaller share of observations with a feature means other images.
+/// Fraction of observations with a feature, below which the images are not those of the model.
 const FEW: f64 = 0.1;
 
 /// A model whose observations are features with descriptors.
@@ -30,11 +30,11 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Finds features in the images of a model, and the points that they see.
+    /// Finds features in the images of a model and assigns them to points.
     ///
     /// # Errors
-    /// A sentence on a model without observations, and on images that are missing or have another
-    /// shape than their cameras.
+    /// For a model without observations, and on images that are missing or have another shape than
+    /// their cameras.
     pub(super) fn read(
         arguments: &Arguments,
         model: &Model,
@@ -142,7 +142,7 @@ impl Known {
     }
 }
 
-/// The points of a model, still without observations.
+/// Returns the points of a model, still without observations.
 fn points_of(model: &Model) -> Vec<ScenePoint> {
     let point = |point: &epipole_io::model::ModelPoint| ScenePoint {
         position: point.position,
@@ -153,7 +153,7 @@ fn points_of(model: &Model) -> Vec<ScenePoint> {
     model.points.iter().map(point).collect()
 }
 
-/// Pixel and point of each observation, by image.
+/// Returns pixel and point of each observation, by image.
 fn observed(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
     let mut observed = vec![Vec::new(); model.images.len()];
     for (index, point) in model.points.iter().enumerate() {
@@ -164,7 +164,7 @@ fn observed(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
     observed
 }
 
-/// Observations by square of side [`NEAR_PX`].
+/// Observations in squares of side [`NEAR_PX`].
 struct Grid<'a> {
     observed: &'a [(Point2<f64>, usize)],
     cells: HashMap<(i64, i64), Vec<usize>>,
@@ -184,7 +184,7 @@ impl<'a> Grid<'a> {
         (index(pixel.x), index(pixel.y))
     }
 
-    /// Index of the nearest observation within [`NEAR_PX`].
+    /// Returns the index of the nearest observation within [`NEAR_PX`].
     fn nearest(&self, pixel: &Point2<f64>) -> Option<usize> {
         let (u, v) = Self::cell(pixel);
         let around = (-1..=1).flat_map(|dv| (-1..=1).map(move |du| (u + du, v + dv)));

@@ -38,8 +38,8 @@ impl Localized {
     }
 }
 
-/// The camera of a model that has the size of a photo, or else the only one that has its shape: the
-/// model may be of downscaled images.
+/// Returns the camera of a model with the size of a photo, or else the only one with its shape,
+/// because the model may have downscaled images.
 fn of_model(
     cameras: &[Camera],
     size: (u32, u32),
@@ -75,10 +75,10 @@ fn of_model(
 impl NewPhoto {
     /// Reads a photo and finds its features.
     ///
-    /// * `cameras`: of the model, one of which may be the photo's
+    /// * `cameras`: cameras of the model, among them perhaps that of the photo
     ///
     /// # Errors
-    /// A sentence that names the file.
+    /// A failure that names the file.
     pub(super) fn read(
         arguments: &Arguments,
         listed: &Listed,
@@ -125,10 +125,10 @@ impl NewPhoto {
         })
     }
 
-    /// The pose in a model, or the reason why there is none.
+    /// Returns the pose in a model, or the reason why there is none.
     ///
     /// # Errors
-    /// If Ctrl-C ends it.
+    /// After Ctrl-C.
     pub(super) fn localize(
         &self,
         arguments: &Arguments,

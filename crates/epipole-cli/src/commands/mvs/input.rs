@@ -14,7 +14,7 @@ use image::RgbImage;
 
 /// A model with its images.
 pub(super) struct Input {
-    /// Its cameras are of the sizes of the photos, `None` where there is no photo.
+    /// Cameras have the sizes of the photos, and are `None` without a photo.
     pub(super) reconstruction: Reconstruction,
     pub(super) names: Vec<String>,
     pub(super) photos: Vec<RgbImage>,
@@ -22,8 +22,8 @@ pub(super) struct Input {
 
 impl Input {
     /// # Errors
-    /// A sentence on a model with too little in it, and on images that are missing or have another
-    /// shape than their cameras.
+    /// For a model with too little in it, and on images that are missing or have another shape than
+    /// their cameras.
     pub(super) fn read(
         arguments: &Arguments,
         model: &Model,
@@ -79,7 +79,7 @@ impl Input {
     }
 }
 
-/// Size that has a longer side of at most `--max-size`.
+/// Returns the size with a longer side of at most `--max-size`.
 fn size(arguments: &Arguments, camera: &Camera) -> SizeArguments {
     let (width, height) = (f64::from(camera.width), f64::from(camera.height));
     let side = f64::from(arguments.max_size);

@@ -74,12 +74,12 @@ fn focal(text: &str) -> Result<Focal, String> {
 /// Known part of the camera.
 pub(super) enum View {
     Camera(Camera),
-    /// A camera without distortion, of which all but the focal length is known.
+    /// A camera without distortion, of known principal point and unknown focal length.
     WithoutFocal(Camera),
 }
 
 impl View {
-    /// The camera; of unknown focal length, it has another one.
+    /// Returns the camera; if its focal length is unknown, with an arbitrary one.
     pub(super) fn camera(&self) -> &Camera {
         match self {
             Self::Camera(camera) | Self::WithoutFocal(camera) => camera,
@@ -88,16 +88,16 @@ impl View {
 }
 
 impl Arguments {
-    /// The camera, or all but its focal length.
+    /// Returns the known part of the camera.
     ///
     /// # Errors
-    /// A sentence on a file that cannot be read, or on a missing principal point.
+    /// For a file that cannot be read, or on a missing principal point.
     pub(super) fn view(&self) -> Result<View, Failure> {
         if let Some(file) = &self.camera {
             return lens::read(file, None).map(View::Camera);
         }
         let pinhole = |k: Intrinsics| {
-            // Unless it is given, the size is that of an image around the principal point.
+            // The default size is that of an image centered at the principal point.
             let side = |middle: f64| (2.0 * middle + 1.0).round().max(1.0) as u32;
             let center = k.principal_point();
             let (width, height) = self.size.unwrap_or((side(center.x), side(center.y)));

@@ -1,4 +1,4 @@
-//! Axes that are reversed or exchanged: either mirrors the image, and few points agree.
+//! Reversed or exchanged axes, which mirror the image, so that few points agree.
 
 use crate::context::Context;
 use epipole::absolute_pose::estimate_absolute_pose;
@@ -6,12 +6,12 @@ use epipole::camera::Camera;
 use epipole::robust::RansacOptions;
 use nalgebra::{Point2, Point3};
 
-/// Change of the axes of the pixels.
+/// Change of the pixel axes.
 type Axes<'a> = &'a dyn Fn(&Point2<f64>) -> Point2<f64>;
 
 /// Warns if few points agree, and many would in a mirrored image.
 ///
-/// * `num_inliers`: those of the pose that was found
+/// * `num_inliers`: number of inliers of the pose
 pub(super) fn check(
     points: &[Point3<f64>],
     pixels: &[Point2<f64>],

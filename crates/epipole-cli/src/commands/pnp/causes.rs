@@ -1,24 +1,24 @@
-//! Points that determine no pose.
+//! Points that do not determine a pose.
 
 use crate::failure::Failure;
 use nalgebra::{Point2, Point3, Vector3};
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Fewest points of a pose that is unique.
+/// Minimum number of points of a unique pose.
 pub(super) const MIN_POINTS: usize = 4;
 
-/// Points nearer to a line than this share of its length are on it.
+/// Distance from a line, relative to its length, below which points are on it.
 const FLAT: f64 = 1e-6;
 
-/// Sentence for four points without a focal length.
+/// Message for four points without a focal length.
 pub(super) const NO_FOCAL: &str = "no focal length fits these points: three of them lie on one line, in the world or in \
     the image, their plane faces the camera, or a pixel belongs to another point";
 
-/// Refuses points that leave the pose open.
+/// Refuses points that do not determine the pose.
 ///
 /// # Errors
-/// A sentence that says why.
+/// A failure with the reason.
 pub(super) fn check(pixels: &[Point2<f64>], points: &[Point3<f64>]) -> Result<(), Failure> {
     let distinct = |keys: &mut dyn Iterator<Item = Vec<u64>>| keys.collect::<BTreeSet<_>>().len();
     // −0 equals 0.
@@ -64,7 +64,7 @@ fn are_on_a_line(points: &[Point3<f64>]) -> bool {
     points.iter().all(|x| beside(x) <= FLAT * length)
 }
 
-/// Says what to look at where no pose fits.
+/// Adds advice to a failure without a pose.
 pub(super) fn with_advice(failure: Failure, path: &Path) -> Failure {
     let failure = failure.about(path);
     match failure.kind {
@@ -76,7 +76,7 @@ pub(super) fn with_advice(failure: Failure, path: &Path) -> Failure {
     }
 }
 
-/// Usual causes of points without a pose.
+/// Usual causes of a missing pose.
 pub(super) const ADVICE: &str =
     "are the columns x y z u v, and the intrinsics those of this image?";
 

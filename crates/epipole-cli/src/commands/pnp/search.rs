@@ -11,28 +11,28 @@ use epipole::absolute_pose::{
 use epipole::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use nalgebra::{Point2, Point3};
 
-/// Fewer points have too few others that could confirm a sample.
+/// Minimum number of points for RANSAC; fewer leave too few to confirm a sample.
 const MIN_VOTERS: usize = 6;
 
-/// Minimum noise of a pixel, for the comparison of poses.
+/// Lower bound of the pixel noise when poses are compared.
 const LEAST_NOISE_PX: f64 = 0.1;
 
-/// Difference in the sum of squared errors, in squared noise, that another pose may have: three
-/// standard deviations.
+/// Maximum excess of another pose's sum of squared errors, in squared noise: three standard
+/// deviations.
 const FITS_AS_WELL: f64 = 9.0;
 
-/// A mean error of this many thresholds is no pose.
+/// Mean error, in thresholds, above which there is no pose.
 const NO_FIT: f64 = 10.0;
 
-/// A pose that fits.
+/// A fitted pose.
 pub(super) struct Pose {
     pub(super) cam_from_world: RigidTransform,
     pub(super) focal_px: Option<f64>,
-    /// Of the inliers.
+    /// Mean error of the inliers.
     pub(super) mean_error_px: f64,
 }
 
-/// The best pose, others that fit equally, and the points that agree with it.
+/// The best pose, others that fit equally well, and the inliers.
 pub(super) struct Found {
     pub(super) best: Pose,
     pub(super) others: Vec<Pose>,
@@ -41,7 +41,7 @@ pub(super) struct Found {
     pub(super) focal_std_px: Option<f64>,
 }
 
-/// Errors of all points.
+/// Returns the errors of all points.
 fn errors_px(
     camera: &Camera,
     cam_from_world: &RigidTransform,
@@ -66,7 +66,7 @@ fn mean(errors: &[f64]) -> f64 {
     errors.iter().sum::<f64>() / errors.len().max(1) as f64
 }
 
-/// Refuses poses that miss all pixels, and warns of few points.
+/// Judges the pose of few points: refuses one that misses all pixels, and warns of large errors.
 fn judge_few(
     arguments: &Arguments,
     context: &Context,
@@ -74,7 +74,7 @@ fn judge_few(
 ) -> Result<(Vec<bool>, f64), Failure> {
     let max_error_px = arguments.robust.options(context).max_error_px;
     let mean_px = mean(errors_px);
-    // An infinite error is that of a point behind the camera.
+    // The error of a point behind the camera is infinite.
     if mean_px > NO_FIT * max_error_px {
         return Err(Failure::new(
             "no-consensus",
@@ -92,7 +92,7 @@ fn judge_few(
     Ok((errors_px.iter().map(is_inlier).collect(), max_error_px))
 }
 
-/// The pose of a camera that is known, and the other one of a plane.
+/// Estimates the pose of a known camera, and the second pose of a plane.
 ///
 /// # Errors
 /// As [`estimate_absolute_pose`] and [`fit_absolute_pose`].
@@ -156,7 +156,7 @@ pub(super) fn with_camera(
     })
 }
 
-/// A camera with another focal length.
+/// Returns the camera with another focal length.
 ///
 /// # Errors
 /// As [`Intrinsics::new`].
@@ -169,13 +169,13 @@ pub(super) fn with_focal_length(camera: &Camera, focal_px: f64) -> Result<Camera
     })
 }
 
-/// Largest sum of squared errors that fits as well as the least.
+/// Returns the largest sum of squared errors that fits as well as the least.
 fn as_well(least: f64, num_errors: usize, num_parameters: usize) -> f64 {
     let freedom = num_errors.saturating_sub(num_parameters).max(1);
     least + FITS_AS_WELL * (least / freedom as f64).max(LEAST_NOISE_PX * LEAST_NOISE_PX)
 }
 
-/// The pose and the focal length of a camera with a known principal point.
+/// Estimates the pose and the focal length of a camera with a known principal point.
 ///
 /// # Errors
 /// As [`estimate_absolute_pose_and_focal`].

@@ -1,4 +1,4 @@
-//! Photographs of a calibrated stereo rig, for `epipole rectify`.
+//! Photos of a calibrated stereo rig, for `epipole rectify`.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -9,10 +9,10 @@ use crate::reading::ReadArguments;
 use epipole::camera::{Camera, RigidTransform};
 use std::path::Path;
 
-/// The two photographs, their cameras, and the pose of the right camera.
+/// Reads the two photos, their cameras, and the pose of the right camera.
 ///
 /// # Errors
-/// A sentence for files that cannot be read or are not of this rig.
+/// For files that cannot be read or are not of this rig.
 pub(super) fn read(
     file: &Path,
     paths: [&Path; 2],
@@ -29,8 +29,8 @@ pub(super) fn read(
     Ok((photos, cameras, right_from_left))
 }
 
-/// A photograph by one side of the rig, as its sensor gave it: turned upright it would be by a
-/// camera that stands otherwise.
+/// Reads a photo of one side of the rig. Refuses one that was rotated upright, because the pose of
+/// its camera would differ.
 fn photograph(
     path: &Path,
     camera: &Camera,

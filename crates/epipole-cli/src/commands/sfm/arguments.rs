@@ -63,7 +63,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Options of features and matches.
+    /// Returns the options of features and matches.
     pub(super) fn photo_options(&self, options: &SfmOptions) -> PhotoOptions {
         PhotoOptions::default()
             .with_features(self.features.options())

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use epipole::camera::Camera;
 use epipole::sfm::{Photo, SfmOptions};
 
-/// Which photographs share a lens.
+/// Photos that share a lens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Lenses {
     One,
@@ -43,7 +43,7 @@ pub(crate) struct AcceptArguments {
 }
 
 impl AcceptArguments {
-    /// The same for the core; of lenses nothing is refined.
+    /// Returns the options of the core, without refinement of lenses.
     pub(crate) fn options(&self, robust: &RobustArguments, context: &Context) -> SfmOptions {
         SfmOptions::default()
             .with_ransac(robust.options(context))
@@ -61,9 +61,9 @@ impl AcceptArguments {
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Reconstruction")]
 pub(super) struct GrowthArguments {
-    /// Images that share a lens. With it they share its refined parameters: all ("one"), those of
-    /// equal size and focal length ("alike"), or none ("each"). Images of --camera share no lens
-    /// with others, nor with images of another rotation.
+    /// Images that share a lens, and with it the refined parameters: all ("one"), those of equal
+    /// size and focal length ("alike"), or none ("each"). Images of --camera share no lens with
+    /// others, nor with images of another rotation.
     #[arg(long, value_enum, default_value_t = Lenses::One, value_name = "WHICH")]
     lenses: Lenses,
     #[command(flatten)]
@@ -73,9 +73,9 @@ pub(super) struct GrowthArguments {
 }
 
 impl GrowthArguments {
-    /// Gives equal numbers to photographs that share a lens.
+    /// Gives equal numbers to photos that share a lens.
     ///
-    /// * `cameras`, `kept`: of each photograph
+    /// * `cameras`, `kept`: per photo
     pub(super) fn number_lenses(
         &self,
         photos: &mut [Photo],
@@ -100,9 +100,9 @@ impl GrowthArguments {
         }
     }
 
-    /// The same for the core.
+    /// Returns the options of the core.
     ///
-    /// * `some_unknown`: whether the focal length of some photograph is but a guess
+    /// * `some_unknown`: whether some focal length is a guess
     pub(super) fn options(
         &self,
         robust: &RobustArguments,

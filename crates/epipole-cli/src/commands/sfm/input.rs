@@ -1,4 +1,4 @@
-//! The photographs of `epipole sfm`, and what is known of their cameras.
+//! Photos of `epipole sfm`, with the known parts of their cameras.
 
 use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
@@ -15,7 +15,7 @@ use epipole::math::Geodetic;
 use epipole::sfm::Photo as SfmPhoto;
 use std::path::PathBuf;
 
-/// Photographs and cameras.
+/// Photos and cameras.
 #[derive(Debug, Args)]
 pub(super) struct InputArguments {
     /// Images, or a folder of them.
@@ -62,27 +62,27 @@ fn focal(text: &str) -> Result<Focal, String> {
 pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
     pub(super) cameras: Vec<Camera>,
-    /// Of the photographs that keep the distortion of a known lens.
+    /// Lenses of the photos that keep their distortion.
     pub(super) lenses: Vec<Option<KeptLens>>,
     /// Positions from the files of the photos.
     pub(super) places: Vec<Option<Geodetic>>,
-    /// Of the focal lengths that nobody gave.
+    /// Guessed focal lengths.
     pub(super) guesses: Vec<Guess>,
     pub(super) used: Vec<Used>,
 }
 
-/// The file of a photograph.
+/// File of a photo.
 pub(super) struct Used {
     pub(super) listed: Listed,
-    /// Whether it shows just the pixels that were used: neither turned nor redrawn nor reduced.
+    /// Whether the file has exactly the pixels used: not rotated, resampled or downscaled.
     pub(super) is_as_stored: bool,
 }
 
 impl InputArguments {
-    /// Reads all photographs.
+    /// Reads all photos.
     ///
     /// # Errors
-    /// A sentence, for files that cannot be read and numbers that do not fit.
+    /// For files that cannot be read and numbers that do not fit.
     pub(super) fn read(&self, context: &Context) -> Result<Input, Failure> {
         let listed = self.listing.photos(&self.photos, context)?;
         if !self.focals_px.is_empty() && self.focals_px.len() != listed.len() {

@@ -1,4 +1,4 @@
-//! `epipole sfm --poses`: points from photographs whose cameras a model has.
+//! `epipole sfm --poses`: points from photos with the cameras of a model.
 
 use super::arguments::Arguments;
 use super::output::{LeftOut, images_json, write_model};
@@ -17,14 +17,14 @@ use epipole_io::model::{Model, ModelImage};
 use serde_json::json;
 use std::path::Path;
 
-/// Share of the work after which all photographs are matched.
+/// Fraction of the work after which all photos are matched.
 const MATCHED: f32 = 0.95;
 
-/// Largest mean error of points of right poses, relative to the largest error that is kept. Points
-/// of wrong matches have about half.
+/// Maximum mean error of points with correct poses, relative to the maximum error kept; with wrong
+/// matches it is about 0.5.
 const MAX_MEAN_ERROR: f64 = 0.3;
 
-/// Photographs that a model has.
+/// Photos whose poses a model has.
 struct Known {
     photos: Vec<Photo>,
     cameras: Vec<Camera>,
@@ -151,7 +151,7 @@ fn read(
     Ok(known)
 }
 
-/// The image of a photograph: that of its name, or the only one of its file without the folders.
+/// Returns the image of a photo, by its name or by a file name that is unique.
 fn image_of<'a>(model: &'a Model, photo: &Listed) -> Option<&'a ModelImage> {
     let images = &model.images;
     let file = photo.path.file_name();
@@ -160,7 +160,7 @@ fn image_of<'a>(model: &'a Model, photo: &Listed) -> Option<&'a ModelImage> {
     exact.or_else(|| of_file.next().filter(|_| of_file.next().is_none()))
 }
 
-/// Warns of photographs that see few points, whose poses may be those of others.
+/// Warns of photos that see few points, whose poses may belong to others.
 fn warn_of_few(found: &Reconstruction, input: &SfmInput, few: usize, context: &Context) {
     let mut counts = vec![0; input.images.len()];
     for element in found.points.iter().flat_map(|point| &point.track) {

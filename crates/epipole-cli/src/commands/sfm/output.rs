@@ -18,16 +18,16 @@ use std::path::{Path, PathBuf};
 /// Folder of the images below the output.
 const FOLDER: &str = "images";
 
-/// The images as they were used.
+/// Images as used, to be written.
 pub(super) struct Pictures<'a> {
     used: &'a [Used],
-    /// A photograph that was changed is a JPEG file now.
+    /// Names; changed photos become JPEG files.
     pub(super) names: Vec<String>,
 }
 
 impl<'a> Pictures<'a> {
     /// # Errors
-    /// A sentence, if one would take the place of another, or of a photograph that was given.
+    /// If an image would overwrite another one or an input photo.
     pub(super) fn within(output: &Path, used: &'a [Used]) -> Result<Self, Failure> {
         let folder = output.join(FOLDER);
         let mut names = Vec::new();
@@ -65,7 +65,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// # Errors
-    /// A sentence, if a file cannot be read again or written.
+    /// If a file cannot be read again or written.
     pub(super) fn write(&self, photos: &[Photo], output: &mut OutputFolder) -> Result<(), Failure> {
         for ((used, photo), name) in self.used.iter().zip(photos).zip(&self.names) {
             let bytes = match used.is_as_stored {
@@ -78,7 +78,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// A name with the extension of a JPEG file.
+/// Returns a name with the extension of a JPEG file.
 fn with_jpg(name: &str) -> String {
     let (folders, file) = name.rsplit_once('/').map_or(("", name), |(a, b)| (a, b));
     let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
@@ -88,10 +88,10 @@ fn with_jpg(name: &str) -> String {
     }
 }
 
-/// Refuses a folder with files of another COLMAP model, where models of this run will be.
+/// Refuses an output folder with files of another COLMAP model.
 ///
 /// # Errors
-/// A sentence naming the file.
+/// A failure naming the file.
 pub(super) fn check_models(output: &OutputFolder) -> Result<(), Failure> {
     let further = (2..).map(component_folder);
     let further = further.take_while(|below| output.folder().join(below).is_dir());
@@ -103,7 +103,7 @@ pub(super) fn check_models(output: &OutputFolder) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Folder of a further component, which counts from 2.
+/// Returns the folder of a further component, counted from 2.
 pub(super) fn component_folder(number: usize) -> String {
     format!("component{number}/")
 }
@@ -113,7 +113,7 @@ pub(super) fn component_folder(number: usize) -> String {
 /// * `folder`: below the output, empty or ending in `/`
 ///
 /// # Errors
-/// A sentence, if one of them cannot be written.
+/// If one of them cannot be written.
 pub(super) fn write_model(
     output: &mut OutputFolder,
     folder: &str,
@@ -122,7 +122,7 @@ pub(super) fn write_model(
 ) -> Result<Vec<String>, Failure> {
     let model = Model::from_reconstruction(reconstruction, images);
     let mut files = model.to_colmap_text()?;
-    // COLMAP prefers them, and cuts names at blanks in text.
+    // COLMAP cuts names at blanks in text, and prefers binary files.
     if !ModelFormat::ColmapText.losses(&model).is_empty() {
         files.extend(model.to_colmap_binary()?);
     }
@@ -135,7 +135,7 @@ pub(super) fn write_model(
     Ok(written)
 }
 
-/// Name, focal length, lens and pose of each registered image.
+/// Returns name, focal length, lens and pose of each registered image.
 pub(super) fn images_json(
     images: &[SfmImage],
     component: &Reconstruction,
@@ -156,7 +156,7 @@ pub(super) fn images_json(
         .collect()
 }
 
-/// A photograph that is not in the largest component.
+/// A photo that is not in the largest component.
 #[derive(Debug, Serialize)]
 pub(super) struct LeftOut {
     pub(super) name: String,

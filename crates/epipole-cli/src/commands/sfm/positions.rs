@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Known positions of photographs.
+/// Known positions of photos.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Positions")]
 pub(super) struct PositionArguments {
@@ -40,25 +40,24 @@ pub(crate) struct Line {
 /// Positions of all photos.
 #[derive(Debug, Default)]
 pub(super) struct Positions {
-    /// Of meters, if the positions were degrees.
+    /// Origin of the frame in meters, if the positions were in degrees.
     pub(super) origin: Option<Geodetic>,
     /// Number of photos with a position.
     pub(super) num_known: usize,
 }
 
 impl PositionArguments {
-    /// Whether the photographs are asked themselves.
+    /// Returns whether positions come from EXIF data.
     fn is_exif(&self) -> bool {
         self.positions.as_deref() == Some("exif")
     }
 
-    /// Gives the photographs their positions.
+    /// Sets the positions of the photos.
     ///
-    /// * `places`: what the files of the photographs say, in their order
+    /// * `places`: positions from the files of the photos, in order
     ///
     /// # Errors
-    /// A sentence, for a file that cannot be read or says what no place is, and where no photograph
-    /// has a position.
+    /// For a file that cannot be read or has invalid positions, and if no photo has a position.
     pub(super) fn give(
         &self,
         photos: &mut [Photo],
@@ -115,8 +114,8 @@ impl PositionArguments {
         Ok(Positions { origin, num_known })
     }
 
-    /// Positions that lie nearer to each other than they are known say nothing; degrees taken for
-    /// meters do so.
+    /// Refuses positions closer to each other than their uncertainty, such as degrees taken for
+    /// meters.
     fn check(&self, photos: &[Photo]) -> Result<(), Failure> {
         let known: Vec<&PositionPrior> =
             photos.iter().filter_map(|p| p.position.as_ref()).collect();
@@ -145,8 +144,7 @@ impl PositionArguments {
     }
 }
 
-/// The line of each photograph: of its name, or of its file without the folders, if no other has
-/// the same.
+/// Returns the line of each photo, by its name or by a file name that is unique.
 fn of_photos(lines: &BTreeMap<String, Line>, photos: &[Photo]) -> Vec<Option<Line>> {
     let file = |photo: &Photo| photo.name.rsplit('/').next().map(str::to_owned);
     let mut counts = BTreeMap::new();
@@ -159,15 +157,15 @@ fn of_photos(lines: &BTreeMap<String, Line>, photos: &[Photo]) -> Vec<Option<Lin
         .collect()
 }
 
-/// Positions farther from zero, meters, are no place on Earth, whatever its frame.
+/// Maximum distance of a position from zero in any frame on Earth, meters.
 const FARTHEST_M: f64 = 1e9;
 
-/// The lines of a file by the names of their photographs.
+/// Parses the lines of a file, by the names of their photos.
 ///
-/// * `sigma_m`: the standard deviation where a line has none
+/// * `sigma_m`: standard deviation of lines without one
 ///
 /// # Errors
-/// A sentence that names the line.
+/// A failure that names the line.
 pub(crate) fn lines(
     text: &str,
     path: &Path,
@@ -183,11 +181,11 @@ pub(crate) fn lines(
             let message = format!("line {}: {why}", index + 1);
             Failure::new("malformed", message).about(path)
         };
-        // A name may have spaces; the numbers behind it have none.
+        // A name may have spaces.
         let words: Vec<&str> = line.split_whitespace().collect();
         let is_number = |word: &&&str| word.parse::<f64>().is_ok_and(f64::is_finite);
         let num_numbers = words.iter().rev().take_while(is_number).count().min(4);
-        // Of a name that is a number itself, too.
+        // The name may be a number too.
         let num_numbers = num_numbers.min(words.len() - 1);
         if num_numbers < 3 {
             return Err(malformed("it is not a name and three numbers"));
@@ -215,7 +213,7 @@ pub(crate) fn lines(
 }
 
 impl Positions {
-    /// `placed`, `position_rms_m` and `origin` of a result.
+    /// Adds `placed`, `position_rms_m` and `origin` to a result.
     pub(super) fn fields(
         &self,
         found: &Reconstruction,
@@ -236,7 +234,8 @@ impl Positions {
     }
 }
 
-/// Root mean square distance of the cameras from their known positions, if the model is placed.
+/// Returns the root mean square distance of the cameras from their known positions, if the model is
+/// placed.
 pub(super) fn rms_m(found: &Reconstruction, photos: &[Photo]) -> Option<f64> {
     let off_sq: Vec<f64> = (found.cameras.iter().zip(photos))
         .filter_map(|(camera, photo)| {

@@ -28,7 +28,7 @@ pub(crate) struct RefinedArguments {
 }
 
 impl RefinedArguments {
-    /// Whether something is asked for.
+    /// Returns whether any refinement is requested.
     pub(crate) fn is_given(&self) -> bool {
         self.refine_focal
             || self.refine_principal_point
@@ -36,7 +36,7 @@ impl RefinedArguments {
             || self.refine_tangential
     }
 
-    /// Says what is asked for and cannot be.
+    /// Warns of a requested refinement that has no effect.
     pub(crate) fn tell_of_nothing_to_refine(&self, cameras: &[Camera], context: &Context) {
         let has_tangential =
             |camera: &Camera| matches!(camera.lens.kind(), LensKind::Brown | LensKind::Rational);
@@ -47,16 +47,16 @@ impl RefinedArguments {
         }
     }
 
-    /// Whether lenses are corrected in the end.
+    /// Returns whether lenses are corrected at the end.
     ///
-    /// * `all_unknown`: whether nothing is given of any lens
+    /// * `all_unknown`: whether nothing is known of any lens
     pub(crate) fn corrects_lenses(&self, all_unknown: bool) -> bool {
         all_unknown && !self.keep_focal && !self.refine_distortion
     }
 
-    /// With what else is asked of a reconstruction, the same for the core.
+    /// Adds the refinement to the other options of a reconstruction.
     ///
-    /// * `some_unknown`: whether some focal length is but a guess
+    /// * `some_unknown`: whether some focal length is a guess
     pub(crate) fn options(&self, accepted: SfmOptions, some_unknown: bool) -> SfmOptions {
         accepted
             .with_refine_focal(self.refine_focal || some_unknown && !self.keep_focal)

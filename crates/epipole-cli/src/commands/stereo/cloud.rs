@@ -39,10 +39,10 @@ pub(super) struct CloudArguments {
 }
 
 impl CloudArguments {
-    /// Matrix from pixels with disparities to points; `None` without --ply.
+    /// Returns the matrix from pixels with disparities to points; `None` without --ply.
     ///
     /// # Errors
-    /// A sentence, if the options do not suffice or the file has no Q.
+    /// If the options do not suffice or the file has no Q.
     pub(super) fn matrix(
         &self,
         (width, height): (u32, u32),
@@ -71,7 +71,7 @@ impl CloudArguments {
     /// Writes the cloud.
     ///
     /// # Errors
-    /// A sentence, if the file cannot be written.
+    /// If the file cannot be written.
     pub(super) fn write(
         &self,
         disparity: &DisparityImage,

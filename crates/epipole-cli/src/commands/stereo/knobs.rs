@@ -50,7 +50,7 @@ pub(super) struct KeepArguments {
 }
 
 impl KeepArguments {
-    /// The filter for the core, where `usual` is that of the matcher.
+    /// Returns the filter of the core; `usual` is the default of the matcher.
     fn filter(&self, usual: DisparityFilter) -> DisparityFilter {
         DisparityFilter::default()
             .with_uniqueness_percent(self.uniqueness_percent.unwrap_or(usual.uniqueness_percent))
@@ -61,7 +61,7 @@ impl KeepArguments {
     }
 }
 
-/// Maximum left-right disagreement; none: any.
+/// Maximum difference of left and right disparity; none: any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct LeftRight(Option<u32>);
 
@@ -128,7 +128,7 @@ pub(super) struct BmArguments {
 
 impl SgmArguments {
     /// # Errors
-    /// Wrong usage, if something is said of the matcher that is not asked for.
+    /// Wrong usage, if an option of the other matcher is given.
     pub(super) fn check_silent(&self) -> Result<(), Failure> {
         let said = [
             ("--cost", self.cost.is_some()),
@@ -163,7 +163,7 @@ impl SgmArguments {
 
 impl BmArguments {
     /// # Errors
-    /// Wrong usage, if something is said of the matcher that is not asked for.
+    /// Wrong usage, if an option of the other matcher is given.
     pub(super) fn check_silent(&self) -> Result<(), Failure> {
         let said = [
             ("--window-px", self.window_px.is_some()),

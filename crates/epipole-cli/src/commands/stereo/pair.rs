@@ -1,5 +1,5 @@
-//! Warnings about a pair that is one picture twice or not rectified, or whose disparities are
-//! outside of the range.
+//! Warnings about a pair that is the same image twice or not rectified, or has disparities outside
+//! the range.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -9,26 +9,26 @@ use epipole::feature::{
 };
 use epipole::imaging::resize;
 
-/// Maximum number of pixels of the images that are searched for features: a check should cost a
-/// small part of matching.
+/// Maximum number of pixels of the images searched for features; the check must be cheap compared
+/// to matching.
 const MAX_PIXELS: f64 = 1e5;
 
 /// Maximum number of features of an image.
 const MAX_FEATURES: usize = 500;
 
-/// Largest distance between the rows of a match of a rectified pair, pixels of these images.
+/// Maximum distance between the rows of a match in a rectified pair, pixels of these images.
 const TOLERANCE_PX: f64 = 0.75;
 
 /// Minimum number of representative matches.
 const MIN_MATCHES: usize = 30;
 
-/// From the left to the right pixel of a match.
+/// Vector from the left to the right pixel of a match.
 type Move = [f64; 2];
 
-/// Warns if both images are the same; from the features of both, if rows do not agree or if most
-/// disparities are not looked for.
+/// Warns if both images are equal, if the rows of matches disagree, or if most disparities are
+/// outside the range.
 ///
-/// * `range`: smallest and largest disparity, pixels
+/// * `range`: minimum and maximum disparity, pixels
 ///
 /// # Errors
 /// As the core's detector.
@@ -48,14 +48,14 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Moves of the matches, and the scale of the images in which they were found.
+/// Returns the moves of the matches, and the scale of the searched images.
 fn moves(photos: &[Photo; 2]) -> Result<(Vec<Move>, f64), Failure> {
     let (width, height) = photos[0].color.dimensions();
     let scale = (MAX_PIXELS / (f64::from(width) * f64::from(height)))
         .sqrt()
         .min(1.0);
     let side = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
-    // Much cheaper than SIFT, and exact enough for rows.
+    // Much cheaper than SIFT, and accurate enough for rows.
     let options = FeatureOptions::default()
         .with_kind(FeatureKind::Orb)
         .with_max_features(MAX_FEATURES);
@@ -131,7 +131,7 @@ mod tests {
 
     use super::*;
 
-    /// Moves by `of` for 0 to 99.
+    /// Returns the moves `of(0)` to `of(99)`.
     fn of(of: impl Fn(f64) -> Move) -> Vec<Move> {
         (0..100).map(|n| of(f64::from(n))).collect()
     }

@@ -94,12 +94,12 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Whether the projection is one that photos of a plane do not have.
+    /// Returns whether the projection is not a plane.
     pub(super) fn is_bent(&self) -> bool {
         !matches!(self.projection, None | Some(Projection::Plane))
     }
 
-    /// Options of the core.
+    /// Returns the options of the core.
     pub(super) fn render_options(&self) -> RenderOptions {
         let surface = match (self.projection, self.model) {
             (Some(Projection::Plane), _) | (None, Model::Homography) => Surface::Plane,

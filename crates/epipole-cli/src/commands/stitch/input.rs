@@ -9,10 +9,10 @@ use epipole::calibration::{Keep, Undistortion};
 use epipole::camera::Intrinsics;
 use epipole::sfm;
 
-/// Photos without distortion, and what is known of their cameras.
+/// Undistorted photos and their intrinsics.
 pub(super) struct Input {
     pub(super) photos: Vec<sfm::Photo>,
-    /// Given or guessed.
+    /// Intrinsics, given or guessed.
     pub(super) intrinsics: Vec<Intrinsics>,
     /// Whether no focal length was guessed.
     pub(super) is_known: bool,
@@ -22,7 +22,7 @@ impl Input {
     /// Reads all photos.
     ///
     /// # Errors
-    /// A sentence, for files that cannot be read, a single photo, and options that do not fit.
+    /// For files that cannot be read, a single photo, and options that do not fit.
     pub(super) fn read(arguments: &Arguments, context: &Context) -> Result<Self, Failure> {
         if arguments.model == Model::Homography && arguments.is_bent() {
             return Err(Failure::usage(

@@ -1,4 +1,4 @@
-//! Pairs of photos that overlap, and how well they fit.
+//! Overlapping pairs of photos and their errors.
 
 use super::arguments::Arguments;
 use super::input::Input;
@@ -14,16 +14,16 @@ use nalgebra::{Matrix3, Point2};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// Share of the work after which all is matched.
+/// Fraction of the work after which all photos are matched.
 const MATCHED: f32 = 0.8;
 
-/// Matches that are farther off than this many pixels after all photos are in place do not fit.
+/// Maximum error of a fitting match after all photos are placed, pixels.
 const FITS_PX: f64 = 6.0;
 
-/// A smaller share of the matches of an overlap that fits is parallax.
+/// Fraction of fitting matches of an overlap below which there is parallax.
 const MOST: f64 = 0.7;
 
-/// A smaller share is of matches of other things, where both photos have their places by others.
+/// Fraction below which the matches are wrong, if other overlaps place both photos.
 const FEW: f64 = 0.1;
 
 /// All overlaps.
@@ -43,7 +43,7 @@ impl Overlaps {
     /// Matches all photos with each other.
     ///
     /// # Errors
-    /// A sentence that names photos, if no two overlap.
+    /// A failure that names photos, if no two overlap.
     pub(super) fn find(
         arguments: &Arguments,
         input: &Input,
@@ -97,7 +97,7 @@ impl Overlaps {
         Ok(Self { found })
     }
 
-    /// Measures the overlaps in a panorama; warns of photos that are left out and of cameras that
+    /// Measures the overlaps in a panorama. Warns of photos that are left out and of cameras that
     /// moved.
     pub(super) fn judge(&self, panorama: &Panorama, input: &Input, context: &Context) -> Judged {
         let names = |overlap: &Overlap| overlap.images.map(|image| &*input.photos[image].name);
@@ -157,11 +157,11 @@ impl Overlaps {
     }
 }
 
-/// Matches of an overlap after all photos are in place.
+/// Matches of an overlap after all photos are placed.
 struct Fit<'a> {
     overlap: &'a Overlap,
     num_fitting: usize,
-    /// Sum of the errors of those that fit.
+    /// Sum of the errors of fitting matches.
     sum_px: f64,
 }
 
@@ -178,13 +178,13 @@ impl<'a> Fit<'a> {
         })
     }
 
-    /// Share of the matches that fit.
+    /// Returns the fraction of the matches that fit.
     fn share(&self) -> f64 {
         self.num_fitting as f64 / self.overlap.pixels[0].len().max(1) as f64
     }
 }
 
-/// Distances in the second photo.
+/// Returns the errors in the second photo, pixels.
 fn errors_px(first: &Matrix3<f64>, second: &Matrix3<f64>, overlap: &Overlap) -> Vec<f64> {
     let inverse = first.try_inverse().unwrap_or_default();
     let transfer = second * inverse;

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::progress::Progress;
 use epipole::stitch::{Overlap, Panorama, chain_homographies, estimate_panorama};
 
-/// Puts photos in their places, and says what focal length is taken.
+/// Places the photos, and reports the focal length.
 ///
 /// # Errors
 /// As [`estimate_panorama`].

@@ -18,8 +18,8 @@ type Pair = ([PosedCamera; 2], Option<[String; 2]>);
 /// * `images`: names of two images of the model, between them a comma
 ///
 /// # Errors
-/// A sentence on a file that cannot be read, a pose that is missing, or an image that the model
-/// does not have.
+/// For a file that cannot be read, a pose that is missing, or an image that the model does not
+/// have.
 pub(super) fn read(
     first: &Path,
     second: Option<&Path>,
@@ -52,7 +52,7 @@ pub(super) fn read(
     }
 }
 
-/// The camera of a file of one camera, or of a model of one image.
+/// Returns the camera of a file with one camera, or of a model with one image.
 fn posed(path: &Path) -> Result<PosedCamera, Failure> {
     let pose = match Content::read(path)? {
         Content::Model(read) => match &read.model.images[..] {
@@ -129,14 +129,14 @@ fn of_model(model: &Model, images: Option<&str>) -> Result<Pair, Failure> {
     ))
 }
 
-/// The images of two names, which may have commas of their own.
+/// Returns the images of two names, which may contain commas.
 fn named<'a>(model: &'a Model, names: &str) -> Result<[&'a ModelImage; 2], Failure> {
     let find = |name: &str| {
         let name = name.trim();
         let mut ending = (model.images.iter())
             .filter(|image| Path::new(&image.name).ends_with(name) && !name.is_empty());
         let exact = model.images.iter().find(|image| image.name == name);
-        // The end of a path is enough if only one has it.
+        // The end of a path is enough if it is unique.
         exact.or_else(|| ending.next().filter(|_| ending.next().is_none()))
     };
     let splits = names

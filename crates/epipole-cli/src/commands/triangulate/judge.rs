@@ -1,4 +1,4 @@
-//! Points from matches, and what is odd about them.
+//! Points from matches, and warnings about them.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -8,10 +8,10 @@ use epipole::optim::RobustLoss;
 use epipole::triangulation::{triangulate_nview, triangulation_angle_rad};
 use nalgebra::{Point2, Point3};
 
-/// Rays that meet at a smaller angle are near parallel.
+/// Angle below which rays are nearly parallel.
 const PARALLEL_DEG: f64 = 1.0;
 
-/// A mean error above this is that of other cameras.
+/// Mean error above which the cameras are not those of the matches.
 const MUCH_PX: f64 = 10.0;
 
 /// A triangulated match.
@@ -23,18 +23,17 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// x, y, z, error and angle.
+    /// Returns x, y, z, error and angle.
     pub(super) fn row(self) -> [f64; 5] {
         let x = self.position;
         [x.x, x.y, x.z, self.error_px, self.angle_deg]
     }
 }
 
-/// Triangulates each match; a match whose rays do not meet in front of both cameras is an error of
-/// its own.
+/// Triangulates each match. A match whose rays do not meet in front of both cameras has an error.
 ///
 /// # Errors
-/// If no match has a point: that of the first match, or that there is none.
+/// If there is no match, or if both cameras are at the same place.
 pub(super) fn triangulate(
     cameras: &[PosedCamera; 2],
     [pixels1, pixels2]: &[Vec<Point2<f64>>; 2],
@@ -61,7 +60,7 @@ pub(super) fn triangulate(
     }
 }
 
-/// Numbers of all points.
+/// Statistics of all points.
 pub(super) struct Summary {
     pub(super) num_points: usize,
     pub(super) num_parallel: usize,
@@ -95,8 +94,7 @@ impl Summary {
     }
 }
 
-/// Warns of rays near parallel, points behind cameras, and cameras that are not those of the
-/// matches.
+/// Warns of nearly parallel rays, points behind cameras, and cameras that do not fit the matches.
 pub(super) fn tell(
     summary: &Summary,
     cameras: &[PosedCamera; 2],

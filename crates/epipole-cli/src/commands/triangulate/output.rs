@@ -10,10 +10,10 @@ use std::path::Path;
 
 type Writer = fn(&[Option<Point>]) -> Vec<u8>;
 
-/// The writer of a file, by its ending; CSV for `-`.
+/// Returns the writer for a file extension; CSV for `-`.
 ///
 /// # Errors
-/// A sentence on another ending.
+/// For other extensions.
 pub(super) fn writer(path: &Path) -> Result<Writer, Failure> {
     if is_standard(path) {
         return Ok(csv);
@@ -41,7 +41,7 @@ fn ply(points: &[Option<Point>]) -> Vec<u8> {
     write_ply(&cloud)
 }
 
-/// A line for each match; without numbers where it has no point.
+/// Writes a line per match, without numbers if it has no point.
 fn csv(points: &[Option<Point>]) -> Vec<u8> {
     let mut text = "x,y,z,error_px,angle_deg\n".to_owned();
     for point in points {

@@ -91,7 +91,7 @@ pub(crate) struct Arguments {
     pub(super) size: SizeArguments,
 }
 
-/// Options of the choice among models.
+/// Options of model selection.
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Configuration")]
 struct JudgingArguments {
@@ -107,7 +107,7 @@ struct JudgingArguments {
 }
 
 impl Arguments {
-    /// Options of the core.
+    /// Returns the options of the core.
     pub(super) fn options(&self, context: &Context) -> TwoViewOptions {
         TwoViewOptions::default()
             .with_ransac(self.robust.options(context))

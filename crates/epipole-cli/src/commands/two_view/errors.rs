@@ -13,17 +13,17 @@ fn each(pixels: Pixels<'_>, error_px: impl Fn(&Point2<f64>, &Point2<f64>) -> f64
     pairs.map(|(a, b)| error_px(a, b)).collect()
 }
 
-/// Of F.
+/// Returns the errors of F.
 pub(super) fn of_fundamental(pixels: Pixels<'_>, f: &Matrix3<f64>) -> Vec<f64> {
     each(pixels, |a, b| sampson_px(f, a, b))
 }
 
-/// Of an H of pixels.
+/// Returns the errors of an H of pixels.
 pub(super) fn of_homography(pixels: Pixels<'_>, h: &Matrix3<f64>) -> Vec<f64> {
     each(pixels, |a, b| homography_sampson_px(h, a, b))
 }
 
-/// Matches seen through lenses; infinite errors where a lens bends no ray to a pixel.
+/// Matches seen through lenses. The error is infinite at a pixel without a ray.
 pub(super) struct SeenPixels(Vec<Option<[Observation; 2]>>);
 
 impl SeenPixels {
@@ -42,13 +42,13 @@ impl SeenPixels {
         self.0.iter().map(of).collect()
     }
 
-    /// Of a motion.
+    /// Returns the errors of a motion.
     pub(super) fn of_motion(&self, motion: &RigidTransform) -> Vec<f64> {
         self.each(|a, b| tangent_sampson_px(motion, a, b))
     }
 
-    /// Of that motion of E which a match agrees with best: where the configuration is degenerate
-    /// none is chosen.
+    /// Returns the errors of E, for each match by the motion that fits it best, because none is
+    /// chosen in a degenerate configuration.
     pub(super) fn of_essential(&self, essential: &Matrix3<f64>) -> epipole::Result<Vec<f64>> {
         let motions = decompose_essential(essential)?;
         Ok(self.each(|a, b| {
@@ -59,7 +59,7 @@ impl SeenPixels {
         }))
     }
 
-    /// Of an H of rays, in image 2.
+    /// Returns the errors of an H of rays, in image 2.
     pub(super) fn of_homography(&self, homography: &Matrix3<f64>) -> Vec<f64> {
         self.each(|a, b| {
             let off = b.offset_px(&(homography * a.ray()));

@@ -1,4 +1,4 @@
-//! Intrinsics of two photographs of which nobody said the focal length.
+//! Intrinsics of two photos with an unknown focal length.
 
 use super::arguments::Arguments;
 use crate::camera::centered;
@@ -11,11 +11,11 @@ use epipole::epipolar::{PoseWithFocal, estimate_relative_pose_and_focal};
 use epipole::robust::RansacReport;
 use nalgebra::Point2;
 
-/// Samples of six matches, at most: each takes as long as ten of five.
+/// Maximum number of samples of six matches; each takes as long as ten of five.
 const MAX_SAMPLES: usize = 2000;
 
-/// The intrinsics given; or else a focal length of both photographs that the matches tell, if
-/// neither command line nor EXIF data do; or else a guess. A sentence says which.
+/// Returns the given intrinsics; or, if neither command line nor EXIF data have a focal length, the
+/// one that the matches determine for both photos; or else a guess. Warns of the latter two.
 ///
 /// # Errors
 /// As [`PairArguments::or_guess`](crate::camera::PairArguments::or_guess).

@@ -1,4 +1,4 @@
-//! Photographs and matches of `epipole two-view`.
+//! Photos and matches of `epipole two-view`.
 
 use super::arguments::{Arguments, Model};
 use crate::context::Context;
@@ -9,9 +9,9 @@ use crate::photo::Photo;
 use crate::units::{warn_of_shares, warn_of_units};
 use nalgebra::Point2;
 
-/// Two photographs and their matches.
+/// Two photos and their matches.
 pub(super) struct Input {
-    /// Photos of no pixels where only matches are given.
+    /// The photos, without pixels if only matches are given.
     pub(super) photos: [Photo; 2],
     pub(super) pixels: [Vec<Point2<f64>>; 2],
     /// `None` for matches of a file.
@@ -19,10 +19,10 @@ pub(super) struct Input {
 }
 
 impl Input {
-    /// Reads the photographs, and the matches or the features of which they are made.
+    /// Reads the photos and the matches, or matches features.
     ///
     /// # Errors
-    /// A sentence that names the file; a sentence about intrinsics that only a photograph tells.
+    /// A failure that names the file, or intrinsics that only a photo provides.
     pub(super) fn read(arguments: &Arguments, context: &Context) -> Result<Self, Failure> {
         let photos = match (&arguments.first, &arguments.second) {
             (Some(first), Some(second)) => {

@@ -1,4 +1,4 @@
-//! The searches of `epipole two-view`, and what they found.
+//! The searches of `epipole two-view` and their results.
 
 use super::arguments::{Arguments, Model};
 use super::errors::{self, Pixels, SeenPixels};
@@ -32,14 +32,14 @@ pub(super) struct Found {
     pub(super) configuration: &'static str,
     pub(super) errors_px: Vec<f64>,
     pub(super) max_error_px: f64,
-    /// Of both cameras, where E was searched for.
+    /// Focal lengths of both cameras, if E was searched for.
     pub(super) focals_px: Option<[f64; 2]>,
 }
 
 impl Found {
-    /// Of a search for one model.
+    /// Returns the result of a search for one model.
     ///
-    /// * `kind`, `otherwise`: its name, and the configuration that it means unless it is degenerate
+    /// * `kind`, `otherwise`: name of the model, and its configuration unless degenerate
     pub(super) fn of_search<M>(
         [kind, otherwise]: [&'static str; 2],
         model: Matrix3<f64>,
@@ -79,14 +79,14 @@ impl Found {
         }
     }
 
-    /// Records a turn that explains the inliers.
+    /// Records a rotation that explains the inliers.
     pub(super) fn turned(&mut self, turn: &ExplainingTurn) {
         self.configuration = "panoramic";
         self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
     }
 }
 
-/// The cameras of two photographs.
+/// The cameras of two photos.
 struct Cameras([Camera; 2]);
 
 impl Cameras {
@@ -103,7 +103,7 @@ impl Cameras {
     }
 }
 
-/// Looks for the model that was asked for.
+/// Searches for the requested model.
 ///
 /// # Errors
 /// As the core's searches, and as [`PairArguments::given`](crate::camera::PairArguments::given).
@@ -148,7 +148,7 @@ pub(super) fn estimate(
             let estimator = HomographyEstimator::new(MatchSet::new(pixels[0], pixels[1])?)?;
             let report = arguments.robust.run(estimator, context)?;
             let errors_px = errors::of_homography(pixels, &report.model);
-            // Pixels alone do not tell a turn from a plane.
+            // Pixels alone do not distinguish a rotation from a plane.
             let cameras = given.map(|given| Cameras::new(photos, given));
             let found = planar(arguments, context, cameras, pixels, (report, errors_px))?;
             warn_of_turn(arguments, context, photos, pixels, &found)?;
@@ -157,7 +157,7 @@ pub(super) fn estimate(
     }
 }
 
-/// As [`estimate`] for photographs by a known lens, which have no F.
+/// Does the work of [`estimate`] for photos with a known lens, for which there is no F.
 fn through_lenses(
     arguments: &Arguments,
     context: &Context,
@@ -204,7 +204,7 @@ fn through_lenses(
     }
 }
 
-/// The model of rays, where a lens without distortion gave one of pixels.
+/// Converts a model of pixels, found without distortion, to a model of rays.
 fn of_rays(model: TwoViewModel, cameras: &Cameras) -> Result<TwoViewModel, Failure> {
     if !cameras.are_pinholes() {
         return Ok(model);
@@ -217,7 +217,7 @@ fn of_rays(model: TwoViewModel, cameras: &Cameras) -> Result<TwoViewModel, Failu
         TwoViewModel::Essential(e) => TwoViewModel::Essential(e),
         TwoViewModel::Homography(h) => {
             let h = k2.inverse_matrix() * h * k1.matrix();
-            // Both cameras are on one side of a plane.
+            // Both cameras are on the same side of the plane.
             TwoViewModel::Homography(h / (h.norm() * h.determinant().signum()))
         }
     })
@@ -268,7 +268,7 @@ fn fundamental(
     Ok(found)
 }
 
-/// E, and whether a turn explains it.
+/// Searches for E, and for a rotation that explains its inliers.
 fn essential(
     arguments: &Arguments,
     context: &Context,
@@ -297,7 +297,7 @@ fn essential(
     Ok(found)
 }
 
-/// A homography, and whether it is that of a turn, if the cameras are known.
+/// Builds the result for a homography; with known cameras, checks whether it is a rotation.
 fn planar(
     arguments: &Arguments,
     context: &Context,
@@ -316,8 +316,8 @@ fn planar(
     Ok(found)
 }
 
-/// Of a plane that did not move, or may be a turn by another focal length than the one given, read
-/// or guessed.
+/// Warns of a plane that did not move, or that may be a rotation with another focal length than the
+/// given, read or guessed one.
 fn warn_of_turn(
     arguments: &Arguments,
     context: &Context,
@@ -346,7 +346,7 @@ fn warn_of_turn(
     Ok(())
 }
 
-/// The word for what two views show.
+/// Returns the word for a configuration.
 pub(super) fn word(configuration: Configuration) -> &'static str {
     match configuration {
         Configuration::General => "general",
@@ -356,12 +356,12 @@ pub(super) fn word(configuration: Configuration) -> &'static str {
     }
 }
 
-/// Whether no more matches agree than wrong ones might.
+/// Returns whether no more matches agree than wrong ones might.
 fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool {
     report.could_be_chance() || report.num_unique_inliers < options.min_num_inliers
 }
 
-/// Configuration of the views, if the model is significant.
+/// Returns the configuration of the views, if the model is significant.
 fn configuration<M>(
     report: &RansacReport<M>,
     otherwise: &'static str,
