@@ -8,20 +8,20 @@ use epipole::sfm::{BalCamera, BalProblem, BundleObservation};
 use nalgebra::{Point2, Point3, Vector3};
 use std::fmt::Write;
 
-/// Reads the format: numbers of cameras, points and observations; then one observation a line
-/// (camera, point, u, v); then nine numbers a camera (rotation, translation, f, k1, k2); then
-/// three a point.
+/// Reads the format: numbers of cameras, points and observations; then one observation per line
+/// (camera, point, u, v); then nine numbers per camera (rotation, translation, f, k1, k2); then
+/// three per point.
 ///
 /// # Errors
-/// [`Error::Malformed`](crate::Error::Malformed) with the line, if words are missing, left
-/// over, not finite, or index what is not there.
+/// [`Error::Malformed`](crate::Error::Malformed) with the line, if words are missing, surplus, not
+/// finite, or an index out of range.
 pub fn read_bal(text: &str) -> Result<BalProblem> {
     let mut tokens = Tokens::new(text);
     let limit = u32::MAX as usize;
     let num_cameras = tokens.index("the number of cameras", limit)?;
     let num_points = tokens.index("the number of points", limit)?;
     let num_observations = tokens.index("the number of observations", limit)?;
-    // A header may promise anything; room is made for what the text can hold.
+    // The header is not trusted: capacity is limited by the length of the text.
     let room = |promised: usize| promised.min(text.len() / 2);
     let mut problem = BalProblem {
         cameras: Vec::with_capacity(room(num_cameras)),
@@ -62,18 +62,19 @@ pub fn read_bal(text: &str) -> Result<BalProblem> {
     Ok(problem)
 }
 
-/// Whether a text is a problem by its first line, three whole numbers, right or wrong.
+/// Returns whether the first line of a text is that of a problem (three whole numbers), even if the
+/// rest is malformed.
 pub fn is_bal(text: &str) -> bool {
     let mut lines = text.lines();
     let mut words = || lines.next().unwrap_or_default().split_whitespace();
     let (first, second) = (words(), words());
     first.clone().count() == 3
         && first.clone().all(|word| word.parse::<usize>().is_ok())
-        // Three numbers are a row of a matrix.
+        // Three numbers would be a row of a matrix.
         && second.count() != 3
 }
 
-/// Writes the format; numbers have as many digits as they need to be read back unchanged.
+/// Writes the format, with enough digits to read numbers back unchanged.
 pub fn write_bal(problem: &BalProblem) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.

@@ -2,7 +2,7 @@
 
 use crate::{Error, Result};
 
-/// Rest of a binary file. Every value that is read is really there.
+/// Rest of a binary file, with bounds checks.
 pub(crate) struct Bytes<'a> {
     all: &'a [u8],
     position: usize,
@@ -13,7 +13,7 @@ impl<'a> Bytes<'a> {
         Self { all, position: 0 }
     }
 
-    /// The next bytes.
+    /// Reads the next bytes.
     pub(crate) fn take(&mut self, count: usize) -> Result<&'a [u8]> {
         let rest = &self.all[self.position..];
         if count > rest.len() {
@@ -61,7 +61,7 @@ impl<'a> Bytes<'a> {
         Ok(values)
     }
 
-    /// A 64-bit number of elements, which the rest of the file can hold.
+    /// Reads a 64-bit number of elements that the rest of the file can hold.
     ///
     /// * `what`: the elements, in the plural
     /// * `size`: minimum number of bytes of an element, at least 1
@@ -77,7 +77,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// Text up to a byte 0.
+    /// Reads text up to a byte 0.
     pub(crate) fn terminated(&mut self) -> Result<String> {
         let at = self.position;
         let rest = &self.all[at..];
@@ -90,7 +90,7 @@ impl<'a> Bytes<'a> {
             .map_err(|_| Error::malformed(format!("the name at byte {at} is not UTF-8")))
     }
 
-    /// Errs if anything follows.
+    /// Returns an error if anything follows.
     pub(crate) fn end(&self) -> Result<()> {
         match self.all.len() - self.position {
             0 => Ok(()),

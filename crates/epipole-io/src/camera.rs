@@ -1,7 +1,7 @@
 //! Cameras: intrinsics and lenses as other programs store them.
 //!
-//! [`read_cameras`] recognizes the format by its content; [`write_cameras`] writes the formats that
-//! have one text for a camera. Pixels are converted to centers at integers.
+//! [`read_cameras`] recognizes the format by its content; [`write_cameras`] writes some of the
+//! formats. Pixels are converted to centers at integers.
 
 mod colmap;
 mod epipole_json;

@@ -4,7 +4,7 @@ pub(crate) mod ply;
 
 pub use ply::{read_ply, write_ply};
 
-/// Sentence on points that were left out, if any.
+/// Returns a sentence on points that were left out, if any.
 pub(crate) fn not_finite(count: usize) -> Option<String> {
     let points = match count {
         0 => return None,

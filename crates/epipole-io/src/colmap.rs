@@ -1,4 +1,4 @@
-//! Parts of COLMAP's files that cameras and models share.
+//! Parts of COLMAP's files shared by cameras and models.
 
 pub(crate) mod cameras;
 mod models;

@@ -1,8 +1,8 @@
-//! Ways in which files go wrong, and how many of them are tried.
+//! Kinds of damage to files, and the number of test cases.
 
 use proptest::prelude::*;
 
-/// A thousand cases, or as many as `EPIPOLE_FUZZ_CASES` says.
+/// Returns a configuration of a thousand cases, or of `EPIPOLE_FUZZ_CASES`.
 pub(crate) fn config() -> ProptestConfig {
     let told = std::env::var("EPIPOLE_FUZZ_CASES").ok();
     ProptestConfig {
@@ -12,7 +12,7 @@ pub(crate) fn config() -> ProptestConfig {
     }
 }
 
-/// One of them, at a share of the length.
+/// Damage at a fraction of the length.
 #[derive(Debug, Clone)]
 pub(crate) enum Damage {
     /// A bit flips.
@@ -21,15 +21,15 @@ pub(crate) enum Damage {
     Cut(f64),
     /// A part is missing.
     Drop(f64, usize),
-    /// A part is there twice.
+    /// A part is repeated.
     Repeat(f64, usize),
-    /// Something else stands in between.
+    /// Other bytes are inserted.
     Insert(f64, Vec<u8>),
-    /// A word is another one.
+    /// A word is replaced.
     Word(f64, usize),
 }
 
-/// Words that numbers are mistaken for, and the other way around.
+/// Replacements that resemble numbers or keywords.
 const WORDS: [&str; 18] = [
     "nan",
     "inf",
@@ -65,7 +65,7 @@ pub(crate) fn some_damage() -> impl Strategy<Value = Vec<Damage>> {
     prop::collection::vec(one, 0..5)
 }
 
-/// A place in so many bytes.
+/// Returns the offset at a fraction of the length.
 fn place(share: f64, length: usize) -> usize {
     ((share * (length + 1) as f64) as usize).min(length)
 }
@@ -108,7 +108,7 @@ pub(crate) fn damage_bytes(bytes: &[u8], changes: &[Damage]) -> Vec<u8> {
     bytes
 }
 
-/// As much of it as is still text.
+/// Damages a text; invalid UTF-8 is replaced.
 pub(crate) fn damage_text(text: &str, changes: &[Damage]) -> String {
     String::from_utf8_lossy(&damage_bytes(text.as_bytes(), changes)).into_owned()
 }

@@ -1,7 +1,7 @@
 //! Depth maps and normal maps of COLMAP's dense stereo.
 //!
 //! Source: `Mat::Write` of COLMAP's `mvs/mat.h`: `width&height&channels&` as text, then floats,
-//! little-endian, row by row, one channel after the other.
+//! little-endian, row by row, channel by channel.
 
 use crate::{Error, Result};
 use epipole::nalgebra::Vector3;
@@ -10,19 +10,19 @@ use image::{ImageBuffer, Luma};
 /// Depth of each pixel.
 type Depths = ImageBuffer<Luma<f32>, Vec<f32>>;
 
-/// Bytes of a depth map, such as `stereo/depth_maps/NAME.geometric.bin`; NaN becomes 0, no value.
+/// Writes a depth map, such as `stereo/depth_maps/NAME.geometric.bin`; NaN becomes 0, no value.
 pub fn write_colmap_depth(depth: &Depths) -> Vec<u8> {
     let value = |z: &f32| if z.is_finite() { *z } else { 0.0 };
     let values = depth.as_raw().iter().map(value);
     bytes(depth.dimensions(), 1, values)
 }
 
-/// Bytes of a normal map, such as `stereo/normal_maps/NAME.geometric.bin`; zeros are no value.
+/// Writes a normal map, such as `stereo/normal_maps/NAME.geometric.bin`; zeros mean no value.
 ///
 /// * `normals`: in the camera's frame, row by row
 ///
 /// # Errors
-/// [`Error::Malformed`] for another number of normals than pixels.
+/// [`Error::Malformed`] if the numbers of normals and pixels differ.
 pub fn write_colmap_normals(size: (u32, u32), normals: &[Vector3<f32>]) -> Result<Vec<u8>> {
     let num_pixels = size.0 as usize * size.1 as usize;
     if normals.len() != num_pixels {
@@ -41,10 +41,10 @@ fn bytes((width, height): (u32, u32), channels: u32, values: impl Iterator<Item 
     bytes
 }
 
-/// Depths from the bytes of a depth map; NaN where it has no value.
+/// Reads a depth map; NaN where it has no value.
 ///
 /// # Errors
-/// [`Error::Malformed`] for bytes that are no depth map, or not a whole one.
+/// [`Error::Malformed`] for bytes that are not a complete depth map.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {

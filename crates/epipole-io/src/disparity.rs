@@ -3,12 +3,12 @@
 use crate::{Error, Result};
 use epipole::stereo::DisparityImage;
 
-/// The bytes of a PFM file: gray, little-endian, the bottom row first; NaN for no value.
+/// Writes a PFM file: gray, little-endian, bottom row first; NaN for no value.
 ///
 /// Source: the format of the Middlebury stereo evaluation.
 pub fn write_pfm(disparity: &DisparityImage) -> Vec<u8> {
     let (width, height) = (disparity.width() as usize, disparity.height() as usize);
-    // The negative scale says little-endian.
+    // A negative scale means little-endian.
     let mut bytes = format!("Pf\n{width} {height}\n-1.0\n").into_bytes();
     if width > 0 {
         for row in disparity.as_raw().chunks_exact(width).rev() {
@@ -20,11 +20,10 @@ pub fn write_pfm(disparity: &DisparityImage) -> Vec<u8> {
     bytes
 }
 
-/// Disparities from the bytes of a gray PFM file of either byte order; infinities and NaN
-/// are no values.
+/// Reads a gray PFM file of either byte order; infinities and NaN mean no value.
 ///
 /// # Errors
-/// [`Error::Malformed`] for bytes that are no gray PFM, or not a whole one.
+/// [`Error::Malformed`] for bytes that are not a complete gray PFM file.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {
@@ -80,12 +79,12 @@ pub fn read_pfm(bytes: &[u8]) -> Result<DisparityImage> {
     Ok(DisparityImage::from_raw(width, height, values)?)
 }
 
-/// The bytes of a 16-bit gray PNG file: disparity × 256, rounded; 0 for no value.
+/// Writes a 16-bit gray PNG file: disparity × 256, rounded; 0 for no value.
 ///
-/// Disparities outside 1/256 … 255.996 px have no such number and count as no value.
+/// Disparities outside 1/256 … 255.996 px cannot be stored and become no value.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for an empty image, which PNG does not have.
+/// [`Error::Unsupported`] for an empty image, which PNG cannot hold.
 ///
 /// Source: the format of the KITTI stereo benchmark.
 #[cfg(feature = "photos")]

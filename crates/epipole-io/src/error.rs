@@ -12,13 +12,13 @@ pub enum Error {
         /// The wrong value, and the expected one.
         message: String,
     },
-    /// The content is valid, but the library has no such model or the format cannot hold it.
+    /// The content is valid, but not supported by the library, or the format cannot hold it.
     #[error("{message}")]
     Unsupported {
         /// The part that is not supported, and the choices.
         message: String,
     },
-    /// Bytes that are no image, or not a whole one.
+    /// Bytes that are not a complete image.
     #[error("the image cannot be read: {why}")]
     BadImage {
         /// The problem, in words.
@@ -38,7 +38,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// A malformed line, counted from 1.
+    /// Creates an error on a malformed line, counted from 1.
     pub(crate) fn at(line: usize, message: impl Into<String>) -> Self {
         Self::Malformed {
             line: Some(line),
@@ -46,7 +46,7 @@ impl Error {
         }
     }
 
-    /// A malformed file, without a line.
+    /// Creates an error on a malformed file, without a line.
     pub(crate) fn malformed(message: impl Into<String>) -> Self {
         Self::Malformed {
             line: None,
@@ -81,7 +81,7 @@ impl Error {
         }
     }
 
-    /// Something that is not supported.
+    /// Creates an error on an unsupported part.
     pub(crate) fn unsupported(message: impl Into<String>) -> Self {
         Self::Unsupported {
             message: message.into(),
@@ -89,10 +89,10 @@ impl Error {
     }
 }
 
-/// Part of a list, or the sentence why it is left out.
+/// Part of a list, or the reason why it is left out.
 pub(crate) type Listed<T> = std::result::Result<T, String>;
 
-/// Splits off what is not supported, so that the rest of a list is read without it.
+/// Separates unsupported entries, so that the rest of a list can be read.
 ///
 /// # Errors
 /// Every other error.

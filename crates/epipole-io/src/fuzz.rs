@@ -1,7 +1,7 @@
-//! Any bytes give a value with finite numbers, or an error, never a panic.
+//! Any bytes yield a value with finite numbers or an error, never a panic.
 //!
-//! Each format starts from files that are right and damages them. A thousand cases a format run
-//! with the tests, a million by `make fuzz-files`.
+//! Tests of each format damage valid files. The tests run a thousand cases per format, `make
+//! fuzz-files` a million.
 
 mod bytes;
 mod clouds;

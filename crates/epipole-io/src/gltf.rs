@@ -12,10 +12,10 @@ pub(crate) const POINTS: u32 = 0;
 pub(crate) const LINES: u32 = 1;
 pub(crate) const TRIANGLES: u32 = 4;
 
-/// Rotation of the node of the world, by half a turn about x: glTF's y points up.
+/// Rotation of the world node by 180° about x, because glTF's y points up.
 pub(crate) const HALF_TURN: [u8; 4] = [1, 0, 0, 0];
 
-/// The binary chunk with its views and accessors.
+/// Binary chunk with its views and accessors.
 #[derive(Default)]
 pub(crate) struct Buffer {
     bytes: Vec<u8>,
@@ -63,8 +63,8 @@ impl Buffer {
         self.add(bytes.collect(), 34962, accessor)
     }
 
-    /// Adds colors as linear intensities of two bytes, which keep the dark ones apart. A stride
-    /// must be a multiple of four.
+    /// Adds colors as linear intensities of two bytes, enough for dark levels. A stride must be a
+    /// multiple of four.
     pub(crate) fn colors(&mut self, colors: impl Iterator<Item = [u8; 3]>) -> usize {
         let levels: Vec<u16> = (0..=u8::MAX).map(linear).collect();
         let values = colors.flat_map(|[r, g, b]| [r, g, b, 255]);
@@ -100,7 +100,7 @@ impl Buffer {
     }
 }
 
-/// A level of sRGB as a linear intensity, 0 to 65535.
+/// Converts a level of sRGB to a linear intensity, 0 to 65535.
 fn linear(level: u8) -> u16 {
     let level = f64::from(level) / 255.0;
     let intensity = match level <= 0.04045 {
@@ -110,9 +110,9 @@ fn linear(level: u8) -> u16 {
     (65535.0 * intensity).round() as u16
 }
 
-/// The file of a scene whose first node is the root.
+/// Writes the file of a scene whose first node is the root.
 ///
-/// * `lists`: further lists of the document, by their names
+/// * `lists`: further lists of the document, by name
 pub(crate) fn document(
     nodes: Vec<Value>,
     lists: Vec<(&str, Vec<Value>)>,
@@ -138,7 +138,7 @@ pub(crate) fn document(
     container(document.to_string().into_bytes(), buffer.bytes)
 }
 
-/// The container of a JSON chunk and a binary chunk.
+/// Writes the container of a JSON chunk and a binary chunk.
 fn container(mut json: Vec<u8>, binary: Vec<u8>) -> Vec<u8> {
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut chunks = Vec::new();

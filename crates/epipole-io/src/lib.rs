@@ -1,9 +1,9 @@
-//! Readers and writers of the files that multi-view geometry is stored in.
+//! Readers and writers of the file formats of multi-view geometry.
 //!
-//! Every format is a file of this crate, with its reader, its writer and the source of its
-//! definition. Functions take and return bytes or text: opening files is the caller's part. Values
-//! are converted to the conventions of [`epipole`]: pixel centers at integers, `cam_from_world`,
-//! x right, y down, z forward.
+//! Each format has a source file with its reader, its writer and the reference of its definition.
+//! Functions take and return bytes or text; callers open files. Values are converted to the
+//! conventions of [`epipole`]: pixel centers at integers, `cam_from_world`, x right, y down, z
+//! forward.
 
 #![cfg_attr(
     not(feature = "cameras"),

@@ -1,4 +1,4 @@
-//! Points and matches: one a line, numbers in columns.
+//! Points and matches: one per line, numbers in columns.
 
 use crate::text::{decode, lines};
 use crate::{Result, table};
@@ -6,18 +6,17 @@ use nalgebra::{Point2, Point3};
 use std::borrow::Cow;
 use std::fmt::Display;
 
-/// Reads matches of two images: `u1 v1 u2 v2` a line, pixels.
+/// Reads matches of two images: `u1 v1 u2 v2` per line, pixels.
 ///
-/// Numbers may stand between commas, semicolons, tabs or spaces, in quotes or brackets; decimal
-/// commas are read between semicolons or tabs. `#` begins a comment. A first line of names,
-/// `u1 v1 u2 v2` or `x1 y1 x2 y2`, allows any order; without one, columns behind the fourth are
-/// ignored.
+/// Numbers are separated by commas, semicolons, tabs or spaces, and may be in quotes or brackets;
+/// decimal commas are read with semicolons or tabs. `#` begins a comment. A header, `u1 v1 u2 v2`
+/// or `x1 y1 x2 y2`, allows any order; without one, columns after the fourth are ignored.
 ///
 /// Returns the pixels in the first image and those in the second.
 ///
 /// # Errors
 /// [`Error::Malformed`](crate::Error::Malformed) with the line of a missing number, NaN or an
-/// ambiguous comma, for a first column that counts the rows, and for a file that is no text.
+/// ambiguous comma, for a first column that counts the rows, and for a file that is not text.
 /// Infinite coordinates are read.
 ///
 /// ```
@@ -37,8 +36,8 @@ pub fn read_matches(bytes: &[u8]) -> Result<[Vec<Point2<f64>>; 2]> {
     ])
 }
 
-/// Reads points of an image: `u v` a line, pixels. The columns may be named `u v`, `x y`, or as
-/// those of matches, whose first image is taken.
+/// Reads points of an image: `u v` per line, pixels. The columns may be named `u v` or `x y`, or as
+/// those of matches, of which the first image is read.
 ///
 /// # Errors
 /// As [`read_matches`].
@@ -47,11 +46,11 @@ pub fn read_points(bytes: &[u8]) -> Result<Vec<Point2<f64>>> {
     Ok(rows.iter().map(|row| Point2::new(row[0], row[1])).collect())
 }
 
-/// Pixels, and the points of the world that are seen there.
+/// Pixels and the world points seen there.
 pub type PixelsAndPoints = (Vec<Point2<f64>>, Vec<Point3<f64>>);
 
-/// Reads points of the world with their pixels: `x y z u v` a line. A first line of these names
-/// allows any order; a first line of four numbers, fx fy cx cy of some camera, is skipped.
+/// Reads world points with their pixels: `x y z u v` per line. A header with these names allows any
+/// order; a first line of four numbers, such as fx fy cx cy, is skipped.
 ///
 /// Returns pixels and points, in the unit of the file.
 ///
@@ -78,7 +77,7 @@ pub fn read_points_with_pixels(bytes: &[u8]) -> Result<PixelsAndPoints> {
     ))
 }
 
-/// The text with its first line made a comment, if that has four numbers where the next has more.
+/// Makes the first line a comment, if it has four numbers and the next line has more.
 fn without_intrinsics(text: &str) -> Cow<'_, str> {
     let count = |line: &str| {
         let words = line.split(|c: char| c.is_whitespace() || c == ',' || c == ';');
@@ -110,8 +109,8 @@ pub enum MatchLayout {
     Csv,
 }
 
-/// Writes matches with the distance of their descriptors and its ratio to the second nearest:
-/// `u1 v1 u2 v2 distance ratio` a line, or `u1 v1 u2 v2` where none are given.
+/// Writes matches with the distance of their descriptors and its ratio to the second nearest: `u1
+/// v1 u2 v2 distance ratio` per line, or `u1 v1 u2 v2` if none are given.
 ///
 /// ```
 /// use epipole_io::matches::{MatchLayout, read_matches, write_matches};
@@ -145,7 +144,7 @@ pub fn write_matches(
     }
 }
 
-/// Writes points of an image: `u v` a line.
+/// Writes points of an image: `u v` per line.
 ///
 /// ```
 /// use epipole_io::matches::{MatchLayout, read_points, write_points};
@@ -160,7 +159,7 @@ pub fn write_points(layout: MatchLayout, pixels: &[Point2<f64>]) -> String {
     rows(layout, &["u", "v"], points)
 }
 
-/// A line of names, and a line for each row.
+/// Writes a header and a line per row.
 fn rows<'a>(
     layout: MatchLayout,
     names: &[&str],

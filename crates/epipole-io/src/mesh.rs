@@ -11,8 +11,8 @@ use std::fmt::Write;
 /// Name of the material in an OBJ file.
 const MATERIAL: &str = "surface";
 
-/// Bytes of a binary little-endian PLY file: as [`write_ply`](crate::cloud::write_ply), and the
-/// indices of the vertices of each triangle.
+/// Writes a binary little-endian PLY file: as [`write_ply`](crate::cloud::write_ply), with the
+/// vertex indices of each triangle.
 ///
 /// ```
 /// use epipole::mvs::Mesh;
@@ -31,8 +31,8 @@ pub fn write_mesh_ply(mesh: &Mesh) -> Vec<u8> {
     ply_of(&mesh.vertices, &mesh.triangles)
 }
 
-/// Bytes of a binary glTF 2.0 file (`.glb`): positions, normals and colors, turned so that a scene
-/// whose first camera is upright stands upright.
+/// Writes a binary glTF 2.0 file (`.glb`): positions, normals and colors, rotated so that a scene
+/// whose first camera is upright is upright.
 ///
 /// Source: Khronos Group, "glTF 2.0 Specification".
 pub fn write_mesh_glb(mesh: &Mesh) -> Vec<u8> {
@@ -147,7 +147,7 @@ fn distinct_corners(mesh: &Mesh, texture: &MeshTexture) -> (Vec<(u32, [f32; 2])>
     (corners, indices)
 }
 
-/// Text of a Wavefront OBJ file: vertices with their colors, as most programs read them, and
+/// Writes a Wavefront OBJ file: vertices with colors, in the form that most programs read, and
 /// normals.
 ///
 /// Source: Wavefront Technologies, "Object Files (.obj)"; colors as by MeshLab.

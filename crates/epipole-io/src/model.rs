@@ -39,22 +39,22 @@ use std::iter;
 pub struct Model {
     /// The cameras.
     pub cameras: Vec<Camera>,
-    /// Number of each camera in files that number them, no two equal; empty: counted from 1.
+    /// Distinct IDs of the cameras, in formats with IDs; if empty, IDs count from 1.
     pub camera_ids: Vec<u32>,
     /// The images with a known pose.
     pub images: Vec<ModelImage>,
     /// The points.
     pub points: Vec<ModelPoint>,
-    /// Cameras that are fixed to each other; empty: each camera moves alone.
+    /// Rigs of cameras fixed to each other; if empty, each camera moves alone.
     pub rigs: Vec<Rig>,
 }
 
 /// An image with a known pose.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelImage {
-    /// Number of the image in files that number them; no two are equal.
+    /// Unique ID of the image, in formats with IDs.
     pub id: u32,
-    /// Name, mostly the path of its file within a folder of images.
+    /// Name, usually the path of its file in a folder of images.
     pub name: String,
     /// Index of its camera.
     pub camera: usize,
@@ -65,7 +65,7 @@ pub struct ModelImage {
 }
 
 impl ModelImage {
-    /// The camera's center in the world.
+    /// Returns the center of the camera in the world.
     pub fn center_in_world(&self) -> Point3<f64> {
         self.cam_from_world
             .inverse_transform_point(&Point3::origin())
@@ -75,7 +75,7 @@ impl ModelImage {
 /// A point of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelPoint {
-    /// Number of the point in files that number them; no two are equal.
+    /// Unique ID of the point, in formats with IDs.
     pub id: u64,
     /// Position in the world.
     pub position: Point3<f64>,
@@ -87,7 +87,7 @@ pub struct ModelPoint {
     pub track: Vec<(usize, usize)>,
 }
 
-/// Points without observations, numbered from 1; gray without colors.
+/// Returns points without observations, with IDs from 1; gray if they have no color.
 fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
     let colors = cloud.colors.into_iter().chain(iter::repeat([128; 3]));
     let points = (1..).zip(cloud.points).zip(colors);
@@ -102,7 +102,7 @@ fn points_of(cloud: PointCloud) -> Vec<ModelPoint> {
         .collect()
 }
 
-/// Cameras in the order in which they come, each once.
+/// Distinct cameras, in order of first occurrence.
 #[derive(Default)]
 struct CameraList {
     cameras: Vec<Camera>,
@@ -131,7 +131,7 @@ impl CameraList {
 }
 
 /// # Errors
-/// [`Error::Malformed`] for an ID that is there twice.
+/// [`Error::Malformed`] for a duplicate ID.
 fn check_ids<T: Ord + Display>(what: &str, mut ids: Vec<T>) -> Result<()> {
     ids.sort_unstable();
     match ids.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -172,8 +172,8 @@ impl Model {
     }
 
     /// # Errors
-    /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same
-    /// number, or an image is elsewhere than its rig has it.
+    /// [`Error::Malformed`] if an index is wrong, two images, cameras or points have the same ID,
+    /// or the pose of an image differs from that of its rig.
     fn check(&self) -> Result<()> {
         if ![0, self.cameras.len()].contains(&self.camera_ids.len()) {
             return Err(Error::malformed(format!(
@@ -208,15 +208,15 @@ impl Model {
         self.check_rigs()
     }
 
-    /// Number of a camera in files that number them.
+    /// Returns the ID of a camera, for formats with IDs.
     ///
-    /// * `camera`: index
+    /// * `camera`: index of the camera
     pub fn camera_id(&self, camera: usize) -> u32 {
         let id = self.camera_ids.get(camera).copied();
         id.unwrap_or(camera as u32 + 1)
     }
 
-    /// The cameras with their numbers.
+    /// Returns the cameras with their IDs.
     fn numbered_cameras(&self) -> Vec<(u32, Camera)> {
         let cameras = self.cameras.iter().enumerate();
         cameras
@@ -224,7 +224,7 @@ impl Model {
             .collect()
     }
 
-    /// Index of the point of each keypoint of each image.
+    /// Returns the index of the point of each keypoint of each image.
     fn point_of_keypoint(&self) -> Vec<Vec<Option<usize>>> {
         let none = |image: &ModelImage| vec![None; image.keypoints.len()];
         let mut all: Vec<Vec<_>> = self.images.iter().map(none).collect();

@@ -1,4 +1,4 @@
-//! Photographs: PNG, JPEG, WebP, TIFF, BMP and PNM files, with the EXIF data in them.
+//! Photos: PNG, JPEG, WebP, TIFF, BMP and PNM files, with their EXIF data.
 
 mod decode;
 mod exif;

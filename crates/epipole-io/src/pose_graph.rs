@@ -13,13 +13,13 @@ use nalgebra::{Isometry2, Isometry3, Similarity3};
 use reader::{Reader, Shared, parse, parse_id};
 use writer::write_graph;
 
-/// A pose graph, and sentences on what the file has besides.
+/// A pose graph, and sentences on other parts of the file.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ReadGraph {
-    /// Poses, measurements between them and of them.
+    /// Poses, their relative measurements and priors.
     pub graph: PoseGraph,
-    /// Parts that were left out.
+    /// Sentences on parts that were left out.
     pub notes: Vec<String>,
 }
 
@@ -29,7 +29,7 @@ pub struct ReadGraph {
 /// Priors are `EDGE_PRIOR_SE2` and `EDGE_PRIOR_SE2_XY`, or `EDGE_SE3_PRIOR` with its
 /// `PARAMS_SE3OFFSET` and `EDGE_SE3_XYZ_PRIOR`. Landmarks are `VERTEX_XY` with `EDGE_SE2_XY`, or
 /// `VERTEX_TRACKXYZ` with `EDGE_SE3_TRACKXYZ` and its offset. Others, such as bearings, are left
-/// out, which [`ReadGraph::notes`] say.
+/// out and listed in [`ReadGraph::notes`].
 ///
 /// The similarities are an extension, `EDGE_SIM3_PRIOR` included: as SE(3), with the scale after
 /// the quaternion and an information matrix of 7×7. Quaternions are written x, y, z, w and are
@@ -38,9 +38,9 @@ pub struct ReadGraph {
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line for unknown tags, mixed kinds, missing or surplus values,
-/// values that are not finite, vertices that are there twice or not at all or of the other kind,
-/// offsets that are not there, and information matrices that are not positive semi-definite;
-/// [`Error::Invalid`] without vertices.
+/// values that are not finite, vertices that are duplicate, missing or of the other kind, missing
+/// offsets, and information matrices that are not positive semi-definite; [`Error::Invalid`]
+/// without vertices.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {
@@ -72,7 +72,7 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
             shared.offsets.insert(ids[0], offset);
             continue;
         }
-        // Other parameters are those of landmarks and cameras.
+        // Other parameters belong to landmarks and cameras.
         if tag.starts_with('#') || tag.starts_with("PARAMS_") {
             continue;
         }
@@ -122,7 +122,7 @@ pub fn read_g2o(text: &str) -> Result<ReadGraph> {
     })
 }
 
-/// Whether a text is g2o's by its first word, right or wrong.
+/// Returns whether the first word of a text is g2o's, even if the rest is malformed.
 pub fn is_g2o(text: &str) -> bool {
     let mut words = text
         .lines()

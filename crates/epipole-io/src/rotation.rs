@@ -4,24 +4,24 @@ use epipole::camera::RigidTransform;
 use epipole::math::svd3;
 use nalgebra::{Matrix3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-/// Largest entry of RᵀR − I of a rotation matrix that is written with four digits.
+/// Largest entry of RᵀR − I of a rotation matrix written with four digits.
 pub(crate) const FOUR_DIGITS: f64 = 1e-3;
 
-/// A rotation from a quaternion of any length, w first.
+/// Returns a rotation from a quaternion of any length, w first.
 pub(crate) fn rotation_from_quaternion(&[w, x, y, z]: &[f64; 4]) -> Option<UnitQuaternion<f64>> {
     let quaternion = Quaternion::new(w, x, y, z);
     let norm = quaternion.norm();
     if !(norm > 0.0 && norm.is_finite()) {
         return None;
     }
-    // Kept to the last bit if it is of length 1 as far as its digits go.
+    // Unchanged if its length is 1 up to rounding.
     Some(match (norm - 1.0).abs() <= 4.0 * f64::EPSILON {
         true => UnitQuaternion::new_unchecked(quaternion),
         false => UnitQuaternion::new_normalize(quaternion),
     })
 }
 
-/// The rotation nearest to a matrix; `None` for no rotation matrix.
+/// Returns the rotation nearest to a matrix; `None` if it is not a rotation matrix.
 ///
 /// * `max_deviation`: largest entry of RᵀR − I
 ///
@@ -41,14 +41,14 @@ pub(crate) fn rotation_from_matrix(
     Some(UnitQuaternion::from_rotation_matrix(&nearest))
 }
 
-/// A pose, if its translation is finite.
+/// Returns a pose, if its translation is finite.
 pub(crate) fn pose(rotation: UnitQuaternion<f64>, t: Vector3<f64>) -> Option<RigidTransform> {
     let is_finite = t.iter().all(|value| value.is_finite());
     is_finite.then(|| RigidTransform::from_parts(Translation3::from(t), rotation))
 }
 
-/// Half a turn about x: between a camera that looks along z with y down, and one that looks along
-/// −z with y up.
+/// Returns the rotation by 180° about x, which converts between cameras along z with y down and
+/// cameras along −z with y up.
 pub(crate) fn half_turn() -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(0.0, 1.0, 0.0, 0.0))
 }

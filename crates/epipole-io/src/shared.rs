@@ -1,8 +1,8 @@
-//! Files beside the project, for tests.
+//! Test data next to the project.
 
 use std::path::PathBuf;
 
-/// A file of the real photographs, or `None` with a printed line where they are absent.
+/// Returns a file of the real photos, or prints a line and returns `None` if they are absent.
 pub(crate) fn data(relative: &str) -> Option<PathBuf> {
     let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
@@ -16,7 +16,7 @@ pub(crate) fn data(relative: &str) -> Option<PathBuf> {
     None
 }
 
-/// A file of the field cases beside the photographs, likewise.
+/// Returns a file of the field cases next to the photos, likewise.
 pub(crate) fn field(relative: &str) -> Option<PathBuf> {
     data(&format!("../field/{relative}"))
 }

@@ -1,5 +1,4 @@
-//! Text files with a row of numbers in each line, as text editors, spreadsheets and programs write
-//! them.
+//! Text files with a row of numbers per line, from text editors, spreadsheets and programs.
 
 #[cfg(feature = "cameras")]
 mod json;
@@ -7,22 +6,22 @@ mod json;
 use crate::text::{decode, excerpt, lines};
 use crate::{Error, Result};
 
-/// Names of the columns of pixels, or of those in the first image, one of which every table has.
+/// Names of the pixel columns, or of those in the first image; every table has one of these pairs.
 pub(crate) const PIXELS: [[&str; 2]; 4] = [["u", "v"], ["x", "y"], ["u1", "v1"], ["x1", "y1"]];
 
-/// Rows from which a first column that counts them is no chance.
+/// Minimum number of rows from which a first column that counts them is no coincidence.
 const MIN_COUNTED: usize = 3;
 
-/// The rows of a text: numbers between commas, semicolons, tabs or spaces, in quotes or brackets,
-/// also as 1.5D+02; decimal commas between semicolons or tabs or in quotes. The rest of a line
-/// after `#` is a comment. A first line of names, also as a comment, orders the columns; otherwise
-/// they are the first ones. JSON is read, too, as lists or as objects, with the feature `cameras`.
+/// Reads the rows of a text: numbers separated by commas, semicolons, tabs or spaces, also in
+/// quotes or brackets or as 1.5D+02; decimal commas with semicolons or tabs or in quotes. `#`
+/// begins a comment. A header, which may be a comment, orders the columns; without one the first
+/// columns are read. With the feature `cameras`, JSON lists or objects are also read.
 ///
 /// * `names`: possible names of the columns in a header, in lower case; further columns are ignored
 ///
 /// # Errors
-/// [`Error::Malformed`] with the line that has fewer numbers, NaN, or a decimal comma that could
-/// be something else; also for a first column that counts the rows. Infinities stay.
+/// [`Error::Malformed`] with the line that has fewer numbers, NaN, or an ambiguous decimal comma;
+/// also for a first column that counts the rows. Infinities are kept.
 pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<Vec<[f64; N]>> {
     let text = decode(bytes)?;
     #[cfg(feature = "cameras")]
@@ -33,7 +32,7 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
     let mut header = match commented_header(text) {
         Some((number, fields)) => {
             let header = Header::read(&fields, names).map_err(|error| error.on_line(number))?;
-            // A comment may leave out columns.
+            // A comment may omit columns.
             Some(Header {
                 num_fields: usize::MAX,
                 ..header
@@ -41,7 +40,7 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
         }
         None => None,
     };
-    // The first numbers of rows with more than are needed.
+    // First numbers of rows that have more than needed.
     let mut counted = Vec::new();
     let mut num_halved = 0;
     let mut is_first = true;
@@ -93,17 +92,17 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
     Ok(rows)
 }
 
-/// A field of a line, and whether it stood in quotes.
+/// A field of a line.
 #[derive(Debug, Clone, PartialEq)]
 struct Field {
     text: String,
-    /// Whether a comma in it can only be a decimal comma.
+    /// Whether a comma in it can only be a decimal comma, for example in quotes.
     may_have_comma: bool,
 }
 
 /// Splits a line at semicolons, or else tabs, or else commas, or else spaces.
 fn fields(line: &str, columns: usize) -> Result<Vec<Field>> {
-    // A tab among spaces and commas is one of the spaces.
+    // A tab among spaces and commas counts as a space.
     let is_table = line.matches('\t').count() + 1 >= columns;
     let separator = [';', '\t', ',']
         .into_iter()
@@ -145,7 +144,7 @@ fn fields(line: &str, columns: usize) -> Result<Vec<Field>> {
     }
     fields.push(open);
     if separator.is_none_or(|c| c == ',') {
-        // Spaces separate, too; not in names between commas.
+        // Spaces separate too, but not in names between commas.
         fields = fields.into_iter().flat_map(at_spaces).collect();
     }
     fields
@@ -157,7 +156,7 @@ fn fields(line: &str, columns: usize) -> Result<Vec<Field>> {
     Ok(fields)
 }
 
-/// The words of a field; a field without words is one that is empty.
+/// Returns the words of a field; one empty word if it has none.
 fn at_spaces(field: Field) -> Vec<Field> {
     let words: Vec<Field> = (field.text.split_whitespace())
         .map(|word| Field {
@@ -183,7 +182,7 @@ fn outside_quotes(line: &str, wanted: char) -> bool {
     })
 }
 
-/// Reads a number, with a decimal comma where that is clear, and Fortran's exponents.
+/// Reads a number, with an unambiguous decimal comma or Fortran's exponents.
 fn number(field: &Field) -> Option<f64> {
     let mut text = field.text.clone();
     if field.may_have_comma && !text.contains('.') {
@@ -196,14 +195,14 @@ fn number(field: &Field) -> Option<f64> {
     text.parse().ok()
 }
 
-/// Whether fields are names: none is a number, one at least begins with a letter.
+/// Returns whether fields are names: none is a number, at least one begins with a letter.
 fn is_header(fields: &[Field]) -> bool {
     let is_name = |field: &Field| field.text.starts_with(|c: char| c.is_alphabetic());
     fields.iter().all(|field| number(field).is_none()) && fields.iter().any(is_name)
 }
 
-/// A first comment that names the columns of the first row, as `numpy.savetxt` and `epipole match`
-/// write it.
+/// Returns a first comment that names the columns of the first row, as from `numpy.savetxt` and
+/// `epipole match`.
 fn commented_header(text: &str) -> Option<(usize, Vec<Field>)> {
     let mut filled = (text.lines().zip(1..)).filter(|(line, _)| !line.trim().is_empty());
     let (first, number) = filled.next()?;
@@ -214,7 +213,8 @@ fn commented_header(text: &str) -> Option<(usize, Vec<Field>)> {
     (are_known && fields(row, names.len()).ok()?.len() == names.len()).then_some((number, names))
 }
 
-/// Whether a line has twice the numbers, all of them whole: decimal commas between commas.
+/// Returns whether a line has twice the numbers, all of them whole, which means decimal commas
+/// between commas.
 fn is_halved(line: &str, fields: &[Field], columns: usize) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let are_whole = fields.iter().enumerate().all(|(at, field)| match at % 2 {
@@ -224,7 +224,7 @@ fn is_halved(line: &str, fields: &[Field], columns: usize) -> bool {
     line.contains(',') && fields.len() == 2 * columns && are_whole
 }
 
-/// Names of the columns that are expected, in words.
+/// Describes the expected columns.
 fn expected<const N: usize>(names: &[[&str; N]]) -> String {
     let known: Vec<String> = names.iter().map(|names| names.join(" ")).collect();
     known.join(" or ")
@@ -376,7 +376,7 @@ mod tests {
             let told = read(text).unwrap_err().to_string();
             assert!(told.contains(why), "{text}: {told}");
         }
-        // Just the columns that are needed may count.
+        // The needed columns alone may count.
         let scan: String = (0..10).map(|n| format!("{n} 1.5 {n} 3\n")).collect();
         assert_eq!(read(&scan).unwrap().len(), 10);
     }

@@ -2,7 +2,7 @@
 
 use crate::{Error, Result};
 
-/// First bytes of binary files that are given for tables, and the way to text.
+/// Signatures of binary files mistaken for tables, and advice.
 const OTHER_FORMATS: [(&[u8], &str); 3] = [
     (
         b"\x93NUMPY",
@@ -18,10 +18,10 @@ const OTHER_FORMATS: [(&[u8], &str); 3] = [
     ),
 ];
 
-/// Length to which an excerpt of a line is cut, characters.
+/// Maximum length of an excerpt of a line, characters.
 const MAX_EXCERPT: usize = 60;
 
-/// The text of a file, without a byte order mark. Line ends may be `\n` or `\r\n`.
+/// Returns the text of a file, without a byte order mark. Line ends may be `\n` or `\r\n`.
 pub(crate) fn decode(bytes: &[u8]) -> Result<&str> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Err(Error::malformed("the text is UTF-16: save it as UTF-8"));
@@ -41,15 +41,15 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<&str> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// Lines with content and their numbers, counted from 1: comments after `#` and blank lines are
-/// left out.
+/// Returns the lines with content and their numbers, counted from 1, without comments after `#` and
+/// blank lines.
 pub(crate) fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     (text.lines().enumerate())
         .map(|(index, line)| (index + 1, line.split('#').next().unwrap_or("").trim()))
         .filter(|(_, line)| !line.is_empty())
 }
 
-/// A finite number.
+/// Reads a finite number.
 pub(crate) fn number(line: usize, word: &str) -> Result<f64> {
     match word.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -58,7 +58,7 @@ pub(crate) fn number(line: usize, word: &str) -> Result<f64> {
     }
 }
 
-/// A line, cut to what a message can quote.
+/// Shortens a line for a message.
 pub(crate) fn excerpt(line: &str) -> String {
     match line.char_indices().nth(MAX_EXCERPT) {
         Some((end, _)) => format!("{}…", &line[..end]),

@@ -1,8 +1,8 @@
-//! Words of a text with the lines they stand in.
+//! Words of a text with their line numbers.
 
 use crate::{Error, Result};
 
-/// Hands out the words of a text, numbers checked.
+/// Reader of the words of a text, with checks of numbers.
 pub(crate) struct Tokens<'a> {
     words: Box<dyn Iterator<Item = (usize, &'a str)> + 'a>,
     line: usize,
@@ -19,7 +19,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// An error at the last word that was handed out.
+    /// Creates an error at the last word read.
     pub(crate) fn error(&self, why: String) -> Error {
         Error::at(self.line, why)
     }
@@ -34,7 +34,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// A finite number.
+    /// Reads a finite number.
     pub(crate) fn number(&mut self, meaning: &str) -> Result<f64> {
         let word = self.word(meaning)?;
         match word.parse::<f64>() {
@@ -44,7 +44,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// A whole number below `bound`.
+    /// Reads a whole number below `bound`.
     pub(crate) fn index(&mut self, meaning: &str, bound: usize) -> Result<usize> {
         let word = self.word(meaning)?;
         match word.parse::<usize>() {
@@ -56,7 +56,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// Nothing but blanks may follow.
+    /// Checks that only blanks follow.
     pub(crate) fn end(&mut self) -> Result<()> {
         match self.words.next() {
             Some((line, word)) => {

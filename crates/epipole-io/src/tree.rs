@@ -1,7 +1,7 @@
-//! Files of keys and values: JSON, YAML and XML as one tree.
+//! Files of keys and values: JSON, YAML and XML as one kind of tree.
 //!
-//! Depth is limited, and aliases of YAML and entities of XML are refused, so a tree is not larger
-//! than a multiple of its file.
+//! Depth is limited, and aliases of YAML and entities of XML are refused, so the size of a tree is
+//! linear in that of its file.
 
 mod field;
 mod json;
@@ -26,7 +26,7 @@ pub(crate) enum Syntax {
 }
 
 impl Syntax {
-    /// Syntax by the first character.
+    /// Returns the syntax by the first character.
     pub(crate) fn of(text: &str) -> Self {
         match text.trim_start().as_bytes().first() {
             Some(b'{' | b'[') => Self::Json,

@@ -9,7 +9,7 @@ use crate::colmap::cameras::{
 };
 use std::collections::BTreeSet;
 
-/// Whether a first line with content is `ID MODEL WIDTH …`.
+/// Returns whether the first line with content is `ID MODEL WIDTH …`.
 pub(super) fn is_text(text: &str) -> bool {
     let mut lines = text.lines().map(str::trim);
     let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
@@ -20,7 +20,7 @@ pub(super) fn is_text(text: &str) -> bool {
         && words.next().is_some()
 }
 
-/// Whether bytes begin with a number of cameras that they have room for.
+/// Returns whether bytes begin with a number of cameras that they can hold.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
     let count = bytes.first_chunk().map(|first| u64::from_le_bytes(*first));
     let room = (bytes.len() / 24) as u64;
@@ -40,7 +40,7 @@ fn named(cameras: Vec<ListedCamera>) -> Result<Cameras> {
     Cameras::of_list(named.map(|(id, camera)| (id.to_string(), camera)))
 }
 
-/// `cameras.txt`. Names that are IDs, no two equal, stay; others are lost, and IDs count from 1.
+/// Writes `cameras.txt`. Names that are distinct IDs are kept; otherwise IDs count from 1.
 pub(super) fn write(cameras: &Cameras) -> String {
     let named = &cameras.cameras;
     let ids: Vec<u32> = named.iter().flat_map(|named| named.name.parse()).collect();

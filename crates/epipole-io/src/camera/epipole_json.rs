@@ -1,8 +1,8 @@
 //! JSON of `epipole calibrate` and `epipole pnp`.
 //!
 //! `image` (width and height), `k` (fx, fy, cx, cy), `distortion` (model and coefficients),
-//! `cam_from_world` where the pose is known, and of a rig `right`, the same of the right camera,
-//! and `stereo.right_from_left`. Pixel centers are at integers. Other keys are not read.
+//! `cam_from_world` if the pose is known; for a rig also `right` (the same keys for the right
+//! camera) and `stereo.right_from_left`. Pixel centers are at integers. Other keys are not read.
 
 use super::named::Cameras;
 use super::parts::matrix_rotation;
@@ -22,7 +22,7 @@ const KINDS: [LensKind; 4] = [
     LensKind::Division,
 ];
 
-/// `image`, `k` and `distortion` of a camera, as results and files have them.
+/// Returns `image`, `k` and `distortion` of a camera, as in results and files.
 pub fn camera_fields(camera: &Camera) -> [(&'static str, Value); 3] {
     let k = &camera.intrinsics;
     let center = k.principal_point();
@@ -80,7 +80,7 @@ fn camera(field: &Field) -> Result<Camera> {
     })
 }
 
-/// Rotation and translation.
+/// Reads rotation and translation.
 ///
 /// * `place`: keys that lead to the motion
 fn motion(motion: Option<&Field>, place: &str) -> Result<RigidTransform> {
@@ -111,7 +111,7 @@ fn motion_fields(motion: &RigidTransform) -> Value {
     json!({ "rotation": rotation, "translation": translation })
 }
 
-/// One camera, or a rig of two.
+/// Writes one camera, or a rig of two.
 pub(super) fn write(cameras: &Cameras) -> Result<String> {
     let fields = |camera| camera_fields(camera).map(|(name, value)| (name.to_owned(), value));
     let whole = match (&cameras.cameras[..], &cameras.right_from_left) {

@@ -36,7 +36,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
         let left_from_right = matrix_motion(&root.need("Stereo.T_c1_c2", "a 4 × 4 matrix")?)?;
         return Ok(Cameras::of_rig([left, right], left_from_right.inverse()));
     }
-    // An RGB-D camera has a baseline only in name.
+    // The baseline of an RGB-D camera is virtual.
     let is_rgbd = ["DepthMapFactor", "RGBD.DepthMapFactor"];
     if is_rgbd.iter().any(|key| root.get(key).is_some()) {
         return Ok(Cameras::of(left));
@@ -134,7 +134,7 @@ fn lens_of(root: &Field, prefix: &str) -> Result<Lens> {
     };
     let field = list.as_ref().or(model.as_ref()).unwrap_or(root);
     if is_fisheye {
-        // A fifth coefficient of 0 is RealSense's.
+        // RealSense adds a fifth coefficient of 0.
         let count = numbers.len() - usize::from(numbers.len() == 5 && numbers[4] == 0.0);
         fisheye(field, &numbers[..count])
     } else if name == "rectified" || numbers.iter().all(|&k| k == 0.0) {

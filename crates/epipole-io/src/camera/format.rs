@@ -29,7 +29,7 @@ pub enum CameraFormat {
 }
 
 impl CameraFormat {
-    /// Name of the program.
+    /// Returns the name of the program.
     pub fn name(self) -> &'static str {
         match self {
             Self::Epipole => "Epipole",
@@ -45,7 +45,8 @@ impl CameraFormat {
             Self::Flat => "plain numbers",
         }
     }
-    /// Pixels of the format, in a sentence. Cameras that were read have centers at integers.
+    /// Describes the pixel convention of the format in a sentence. Readers convert to centers at
+    /// integers.
     pub fn convention(self) -> &'static str {
         match self {
             Self::Epipole

@@ -1,7 +1,7 @@
 //! Camera chains of Kalibr, and the `sensor.yaml` of EuRoC.
 //!
 //! Pinhole cameras with `radtan` or `equidistant` distortion. Pixel centers are at integers;
-//! `T_cn_cnm1` of a camera is the motion from the camera before it, meters.
+//! `T_cn_cnm1` of a camera is the motion from the previous camera, meters.
 //!
 //! Source: Kalibr's wiki, "YAML formats"; Burri et al. 2016, "The EuRoC micro aerial vehicle
 //! datasets".
@@ -13,7 +13,7 @@ use crate::error::set_aside;
 use crate::tree::Field;
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 
-/// Cameras of a chain with their keys, `cam0` and so on.
+/// Returns the cameras of a chain with their keys, `cam0` and so on.
 fn chain<'a>(root: &Field<'a>) -> Vec<(String, Field<'a>)> {
     let is_camera = |key: &str, field: &Field| {
         let number = key.strip_prefix("cam");

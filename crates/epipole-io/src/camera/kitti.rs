@@ -44,7 +44,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     Ok(all)
 }
 
-/// A projection K (I | t).
+/// Reads a projection K (I | t).
 fn rectified(field: &Field, size: Option<Size>) -> Result<NamedCamera> {
     let p: [f64; 12] = field.array()?;
     let k = intrinsics(field, &[&p[..3], &p[4..7], &p[8..11]].concat())?;
@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(format, CameraFormat::Kitti);
         assert_eq!(rig.cameras[0].camera.intrinsics.fu_px(), 718.856);
         let baseline = rig.right_from_left.unwrap().translation.vector;
-        // The odometry benchmark's baseline: 0.5372 m.
+        // Baseline of the odometry benchmark: 0.5372 m.
         assert!(
             (baseline - Vector3::new(-0.5372, 0.0, 0.0)).norm() < 1e-4,
             "{baseline}"

@@ -29,7 +29,7 @@ fn is_own(field: &Field) -> bool {
     OWN.iter().any(|key| field.get(key).is_some())
 }
 
-/// The parameters, which may be the only value of a variable's name.
+/// Returns the parameters, which may be the single value under the name of a variable.
 fn unwrapped<'a>(root: &Field<'a>) -> Field<'a> {
     let mut inner = root.entries().into_iter().map(|(_, field)| field);
     match is_own(root) {

@@ -2,7 +2,7 @@
 //!
 //! A point x = X/Z, y = Y/Z is seen at u = w/2 + cx + (f + b1) x' + b2 y', v = h/2 + cy + f y',
 //! with x' = x (1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸) + p1 (r² + 2x²) + 2 p2 x y, and y' likewise with
-//! p1 and p2 exchanged: they are p2 and p1 of OpenCV. A fisheye has the angle in place of r. The
+//! p1 and p2 exchanged: they are p2 and p1 of OpenCV. A fisheye has the angle instead of r. The
 //! center of the first pixel is at (0.5, 0.5), so half a pixel is subtracted. k4 of a frame camera,
 //! p3, p4 and b2 must be 0. Old files have `fx`, `fy` and an absolute `cx`, `cy`.
 //!
@@ -54,7 +54,7 @@ fn find_sensors<'a>(field: &Field<'a>, sensors: &mut Vec<Field<'a>>) {
     }
 }
 
-/// The adjusted calibration, or else the first.
+/// Returns the adjusted calibration, or else the first.
 fn calibration_of<'a>(sensor: &Field<'a>) -> Option<Field<'a>> {
     let is_adjusted = |field: &Field| field.get("class").and_then(|c| c.text()) == Some("adjusted");
     let mut all = sensor.all("calibration");

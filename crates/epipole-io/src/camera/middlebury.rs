@@ -22,7 +22,7 @@ pub(super) fn read(text: &str) -> Result<Cameras> {
     Ok(Cameras::of_rectified(cameras, baseline))
 }
 
-/// The line of a key, and its value.
+/// Returns the line number and the value of a key.
 fn value<'a>(text: &'a str, key: &str) -> Result<(usize, &'a str)> {
     let find = |(line, number): (&'a str, usize)| {
         let rest = line.trim().strip_prefix(key)?.strip_prefix('=')?;

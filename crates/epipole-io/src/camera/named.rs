@@ -8,11 +8,11 @@ use nalgebra::Translation3;
 /// A camera and its name in the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedCamera {
-    /// Name, number or image that the file gives; "camera", or "left" and "right", without one.
+    /// Name, number or image in the file; by default "camera", or "left" and "right".
     pub name: String,
     /// Size, intrinsics and lens, pixel centers at integers.
     pub camera: Camera,
-    /// Pose, of a format that has one: `x_in_cam = cam_from_world * x_in_world`.
+    /// Pose, if the format has one: `x_in_cam = cam_from_world * x_in_world`.
     pub cam_from_world: Option<RigidTransform>,
 }
 
@@ -24,12 +24,12 @@ pub struct Cameras {
     /// Motion of a rig, from the first camera to the second: `x_in_right = R x_in_left + t`, in the
     /// unit of the file.
     pub right_from_left: Option<RigidTransform>,
-    /// Sentences on cameras of the file that are left out, as the library has no such lens.
+    /// Sentences on cameras of the file that are left out because their lens is not supported.
     pub notes: Vec<String>,
 }
 
 impl Cameras {
-    /// The cameras of a list, without those that are left out.
+    /// Returns the supported cameras of a list, and notes on the others.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if none remain.
@@ -49,7 +49,7 @@ impl Cameras {
         }
     }
 
-    /// One camera, named "camera".
+    /// Creates a list of one camera, named "camera".
     pub fn of(camera: Camera) -> Self {
         Self {
             cameras: vec![NamedCamera::new("camera", camera)],
@@ -57,7 +57,7 @@ impl Cameras {
         }
     }
 
-    /// A stereo rig, its cameras named "left" and "right".
+    /// Creates a stereo rig with cameras named "left" and "right".
     pub fn of_rig([left, right]: [Camera; 2], right_from_left: RigidTransform) -> Self {
         Self {
             cameras: vec![
@@ -69,14 +69,14 @@ impl Cameras {
         }
     }
 
-    /// A rectified rig: the right camera is `baseline` to the right of the left one, in the unit of
-    /// the file.
+    /// Creates a rectified rig, whose right camera is `baseline` to the right of the left one, in
+    /// the unit of the file.
     pub(super) fn of_rectified(cameras: [Camera; 2], baseline: f64) -> Self {
         let right_from_left = Translation3::new(-baseline, 0.0, 0.0);
         Self::of_rig(cameras, right_from_left.into())
     }
 
-    /// The camera of a name.
+    /// Returns the camera of a name.
     pub fn named(&self, name: &str) -> Option<&Camera> {
         let found = self.cameras.iter().find(|named| named.name == name);
         found.map(|named| &named.camera)
@@ -84,7 +84,7 @@ impl Cameras {
 }
 
 impl NamedCamera {
-    /// A camera with a name.
+    /// Creates a camera with a name.
     pub fn new(name: impl Into<String>, camera: Camera) -> Self {
         Self {
             name: name.into(),

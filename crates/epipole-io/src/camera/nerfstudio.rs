@@ -1,9 +1,9 @@
 //! Cameras of `transforms.json`, which nerfstudio and instant-ngp read.
 //!
-//! `fl_x`, `fl_y`, `cx`, `cy`, `w`, `h` and the lens stand at the top, or in each frame; a frame's
-//! camera has the name of its `file_path`. Without `fl_x`, `camera_angle_x` is the horizontal field
-//! of view, radians. The center of the first pixel is at (0.5, 0.5), so half a pixel is subtracted
-//! from `cx` and `cy`.
+//! `fl_x`, `fl_y`, `cx`, `cy`, `w`, `h` and the lens are at the top level or in each frame; a
+//! frame's camera has the name of its `file_path`. Without `fl_x`, `camera_angle_x` is the
+//! horizontal field of view, radians. The center of the first pixel is at (0.5, 0.5), so half a
+//! pixel is subtracted from `cx` and `cy`.
 //!
 //! Source: nerfstudio's documentation, "Data conventions"; instant-ngp, `scripts/colmap2nerf.py`.
 
@@ -36,7 +36,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     Cameras::of_list(cameras)
 }
 
-/// Keys of a frame, and of the whole file where the frame has none.
+/// Keys of a frame, with those of the whole file as defaults.
 struct Keys<'a>([&'a Field<'a>; 2]);
 
 impl<'a> Keys<'a> {
@@ -49,9 +49,9 @@ impl<'a> Keys<'a> {
     }
 }
 
-/// The camera of a frame.
+/// Reads the camera of a frame.
 ///
-/// * `document`: the whole file, for what the frame does not have
+/// * `document`: the whole file, for keys missing in the frame
 /// * `size`: of the images, for a file without one
 ///
 /// # Errors
@@ -162,7 +162,7 @@ mod tests {
         let text =
             r#"{"camera_angle_x": 0.6911112070083618, "frames": [{"file_path": "./train/r_0"}]}"#;
         let camera = parse(text, Some((800, 600))).unwrap().cameras[0].camera;
-        // The focal length that NeRF's synthetic scenes are used with.
+        // The usual focal length of NeRF's synthetic scenes.
         assert!((camera.intrinsics.fu_px() - 1111.1110311937682).abs() < 1e-9);
         assert_eq!(camera.intrinsics.fu_px(), camera.intrinsics.fv_px());
         assert_eq!(camera.intrinsics.principal_point(), [399.5, 299.5].into());

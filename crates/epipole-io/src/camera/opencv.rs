@@ -1,8 +1,8 @@
 //! Cameras of OpenCV's `FileStorage`: YAML, XML and JSON.
 //!
 //! OpenCV's samples write `camera_matrix`, `distortion_coefficients` and `image_width`, those for
-//! rigs `M1`, `D1`, `M2`, `D2`, `R` and `T`; programs of others write `K`, `dist_coeffs` and the
-//! like. Four coefficients are a fisheye's where `fisheye_model` is 1 or a model is named so. Pixel
+//! rigs `M1`, `D1`, `M2`, `D2`, `R` and `T`; other programs write `K`, `dist_coeffs` and similar
+//! keys. Four coefficients are a fisheye's if `fisheye_model` is 1 or the model is named so. Pixel
 //! centers are at integers; `R` and `T` are `right_from_left`, in the unit of the board.
 //!
 //! Source: OpenCV, `modules/core/src/persistence*.cpp`,
@@ -38,7 +38,7 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "distortions",
 ];
 
-/// The key of one side of a rig: with 1 or 2, or left or right before or behind it.
+/// Returns the keys of one side of a rig: with 1 or 2, or left or right, as prefix or suffix.
 fn of_side(keys: &[&str], side: usize) -> Vec<String> {
     let (number, word, letter) = [("1", "left", "l"), ("2", "right", "r")][side];
     (keys.iter())
@@ -53,7 +53,7 @@ fn of_side(keys: &[&str], side: usize) -> Vec<String> {
         .collect()
 }
 
-/// K of one side of a rig. `k1` may also be a coefficient, a number.
+/// Returns K of one side of a rig. `k1` may also be a coefficient, a number.
 fn side_matrix<'a>(root: &Field<'a>, side: usize) -> Option<Field<'a>> {
     let keys = of_side(&MATRIX, side);
     let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
@@ -98,7 +98,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     Ok(Cameras::of(camera(root, &matrix, &COEFFICIENTS, size)?))
 }
 
-/// Width and height, if the file has them.
+/// Returns width and height, if the file has them.
 pub(super) fn image_size(root: &Field) -> Result<Option<Size>> {
     let width = root.any(&["imagewidth", "width"]);
     let height = root.any(&["imageheight", "height"]);
@@ -136,7 +136,7 @@ fn camera(root: &Field, matrix: &Field, keys: &[&str], (width, height): Size) ->
     })
 }
 
-/// No distortion, where no key looks like one.
+/// Returns a lens without distortion, unless a key looks like distortion.
 fn no_lens(root: &Field) -> Result<Lens> {
     let is_lens = |(key, field): &(String, Field)| {
         key.to_lowercase().contains("dist") && field.text().is_none()

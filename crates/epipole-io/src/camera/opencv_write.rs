@@ -7,7 +7,7 @@ use crate::{Error, Result};
 use epipole::camera::{Camera, LensKind};
 use std::fmt::Write;
 
-/// One camera, or two with or without their motion.
+/// Writes one camera, or two with or without their motion.
 pub(super) fn write(cameras: &Cameras) -> Result<String> {
     let all: Vec<&Camera> = cameras.cameras.iter().map(|named| &named.camera).collect();
     let size = (all[0].width, all[0].height);

@@ -1,4 +1,4 @@
-//! Parts that several formats share: K, sizes, lenses in OpenCV's order, rotations.
+//! Parts shared by several formats: K, sizes, lenses in OpenCV's order, rotations.
 
 use crate::rotation::{FOUR_DIGITS, rotation_from_matrix};
 use crate::tree::Field;
@@ -12,10 +12,10 @@ pub(super) type Size = (u32, u32);
 /// Bound of a translation, in units of the file.
 const FAR: f64 = 1e12;
 
-/// Largest skew relative to the focal length that is rounding.
+/// Maximum skew relative to the focal length that counts as rounding.
 const ROUNDED_SKEW: f64 = 1e-9;
 
-/// The size of a file without one: that of the images, if the caller knows it.
+/// Returns the size of the images for a file without one, if the caller knows it.
 ///
 /// # Errors
 /// [`Error::Malformed`] if not.
@@ -23,7 +23,7 @@ pub(super) fn size_or(size: Option<Size>, keys: &str) -> Result<Size> {
     size.ok_or_else(|| Error::malformed(format!("the file has no image size: {keys} are missing")))
 }
 
-/// Intrinsics from the nine numbers of K, row by row; or column by column, as Open3D writes it.
+/// Returns the intrinsics from the nine numbers of K, row by row, or column by column as in Open3D.
 pub(super) fn intrinsics(field: &Field, k: &[f64]) -> Result<Intrinsics> {
     if let &[fx, skew, 0.0, 0.0, fy, 0.0, cx, cy, 1.0] = k
         && [cx, cy] != [0.0; 2]
@@ -52,8 +52,8 @@ pub(super) fn check_skew(field: &Field, skew: f64, focal_px: f64) -> Result<()> 
     }
 }
 
-/// Lens from OpenCV's coefficients: none, k1 k2 p1 p2, then k3, then k4 k5 k6, then s1 to s4 and
-/// τx τy, which must be 0.
+/// Returns the lens of OpenCV's coefficients: none, k1 k2 p1 p2, then k3, then k4 k5 k6, then s1 to
+/// s4 and τx τy, which must be 0.
 ///
 /// Source: OpenCV's documentation of `calib3d`, "Detailed description".
 pub(super) fn opencv_lens(field: &Field, k: &[f64]) -> Result<Lens> {
@@ -72,7 +72,7 @@ pub(super) fn opencv_lens(field: &Field, k: &[f64]) -> Result<Lens> {
     }
 }
 
-/// Rational lens, or Brown's where no denominator bends.
+/// Returns a rational lens, or Brown's if the denominator is 1.
 fn rational(k: &[f64]) -> Result<Lens> {
     match k[5..] == [0.0; 3] {
         true => lens(LensKind::Brown, &k[..5]),
@@ -80,7 +80,7 @@ fn rational(k: &[f64]) -> Result<Lens> {
     }
 }
 
-/// Fisheye from k1 to k4.
+/// Returns a fisheye lens from k1 to k4.
 pub(super) fn fisheye(field: &Field, k: &[f64]) -> Result<Lens> {
     match k.len() {
         4 => lens(LensKind::Fisheye, k),
@@ -94,7 +94,7 @@ pub(super) fn lens(kind: LensKind, k: &[f64]) -> Result<Lens> {
     Ok(Lens::from_coefficients(kind, k)?)
 }
 
-/// A translation to the camera, without one so far that inverting its pose could overflow.
+/// Returns a translation, and refuses one so long that inverting the pose could overflow.
 pub(super) fn translation(field: &Field, [x, y, z]: [f64; 3]) -> Result<Translation3<f64>> {
     match [x, y, z].iter().all(|part| part.abs() < FAR) {
         true => Ok(Translation3::new(x, y, z)),
@@ -102,7 +102,8 @@ pub(super) fn translation(field: &Field, [x, y, z]: [f64; 3]) -> Result<Translat
     }
 }
 
-/// Motion from a rotation, nine numbers row by row or a rotation vector, and a translation.
+/// Returns a motion from a rotation, nine numbers row by row or a rotation vector, and a
+/// translation.
 pub(super) fn motion(rotation: &Field, place: &Field) -> Result<RigidTransform> {
     let numbers = rotation.numbers()?;
     let turn = match numbers[..] {
@@ -121,7 +122,7 @@ pub(super) fn motion(rotation: &Field, place: &Field) -> Result<RigidTransform> 
     ))
 }
 
-/// Motion from a 4 × 4 matrix, row by row.
+/// Returns a motion from a 4 × 4 matrix, row by row.
 pub(super) fn matrix_motion(field: &Field) -> Result<RigidTransform> {
     let numbers = field.numbers()?;
     let all: [f64; 16] = (numbers.try_into()).map_err(|_| field.wrong("is not a 4 × 4 matrix"))?;
@@ -132,7 +133,7 @@ pub(super) fn matrix_motion(field: &Field) -> Result<RigidTransform> {
     ))
 }
 
-/// The rotation nearest to nine numbers, row by row.
+/// Returns the rotation nearest to nine numbers, row by row.
 pub(super) fn matrix_rotation(field: &Field, numbers: &[f64]) -> Result<UnitQuaternion<f64>> {
     let no_rotation = || field.wrong("is not nine numbers of a rotation");
     if numbers.len() != 9 {

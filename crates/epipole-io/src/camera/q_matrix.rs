@@ -10,11 +10,11 @@ use epipole::camera::Lens;
 use epipole::stereo::q_from_rig;
 use nalgebra::Matrix4;
 
-/// Rotation, radians, and offset relative to the baseline, that are rounding.
+/// Maximum rotation, radians, and offset relative to the baseline that count as rounding.
 const ROUNDED: f64 = 1e-4;
 
-/// Reads Q: the key `Q` of JSON, YAML or XML, such as OpenCV writes, or sixteen numbers row by row;
-/// also Q of the cameras of a rectified rig, such as `calib.txt` of Middlebury or KITTI.
+/// Reads Q: the key `Q` of JSON, YAML or XML, as OpenCV writes it; sixteen numbers row by row; or
+/// the cameras of a rectified rig, such as `calib.txt` of Middlebury or KITTI.
 ///
 /// # Errors
 /// [`Error::Malformed`] without sixteen finite numbers, if the last row does not depend on the
@@ -52,7 +52,7 @@ pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
     }
 }
 
-/// Numbers of a text that has nothing else.
+/// Returns the numbers of a text that has nothing else.
 fn plain(text: &str) -> Option<Vec<f64>> {
     let between = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '[' | ']');
     let words = text.split(between).filter(|word| !word.is_empty());
@@ -60,7 +60,7 @@ fn plain(text: &str) -> Option<Vec<f64>> {
     numbers.filter(|numbers| !numbers.is_empty())
 }
 
-/// Numbers of the key `Q`.
+/// Returns the numbers of the key `Q`.
 fn keyed(text: &str) -> Result<Vec<f64>> {
     let tree = Syntax::of(text).parse(text)?;
     let whole = Field::root(&tree);
@@ -75,9 +75,9 @@ fn keyed(text: &str) -> Result<Vec<f64>> {
     }
 }
 
-/// Q of a file with the cameras of a rig; `None` for another file.
+/// Returns Q of a file with the cameras of a rig; `None` for another file.
 fn of_rig(bytes: &[u8]) -> Option<Result<Matrix4<f64>>> {
-    // Q does not depend on the size, which some files do not have.
+    // Q does not depend on the size, which some files lack.
     let (_, cameras) = read_cameras(bytes, Some((1, 1))).ok()?;
     let motion = cameras.right_from_left?;
     let [left, right, ..] = &cameras.cameras[..] else {
@@ -146,7 +146,7 @@ mod tests {
             width=2964\nheight=1988\n";
         let q = read_q(middlebury.as_bytes()).unwrap();
         let point = q * nalgebra::Vector4::new(1176.728, 1011.728, 100.0, 1.0);
-        // Z = f B/(d + doffs), the formula of the page of the datasets.
+        // Z = f B/(d + doffs), from the web page of the data sets.
         let depth = 3997.684 * 193.001 / (100.0 + 1307.839 - 1176.728);
         assert!((point.z / point.w - depth).abs() < 1e-9 * depth);
         let kitti = "P0: 718.856 0 607.1928 0 0 718.856 185.2157 0 0 0 1 0\n\

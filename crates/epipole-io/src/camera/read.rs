@@ -12,7 +12,7 @@ use epipole::camera::{Camera, Intrinsics, Lens};
 /// Maximum number of keys that a message lists.
 const MAX_KEYS: usize = 8;
 
-/// Reads the cameras of a file, and tells its format by its content.
+/// Reads the cameras of a file, whose format is recognized by its content.
 ///
 /// * `bytes`: content of the file
 /// * `size`: width and height of the images, pixels, for a file without them
@@ -53,7 +53,7 @@ pub fn read_cameras(bytes: &[u8], size: Option<(u32, u32)>) -> Result<(CameraFor
     }
 }
 
-/// Whether a file is one of cameras by its keys or first words, right or wrong.
+/// Returns whether keys or first words are those of a camera file, even if it is malformed.
 pub fn is_camera_file(bytes: &[u8]) -> bool {
     let is_tree = |text: &str| {
         let syntax = Syntax::of(text);
@@ -101,7 +101,7 @@ fn of_tree(text: &str, size: Option<(u32, u32)>) -> Result<(CameraFormat, Camera
     Ok((format, cameras))
 }
 
-/// fx, fy, cx and cy of nine numbers without keys.
+/// Returns fx, fy, cx and cy of nine numbers without keys.
 fn bare_matrix(root: &Field) -> Option<[f64; 4]> {
     match root.numbers().ok()?[..] {
         [fx, _, cx, _, fy, cy, 0.0, 0.0, 1.0] => Some([fx, fy, cx, cy]),

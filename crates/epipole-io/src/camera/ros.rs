@@ -46,7 +46,8 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     })
 }
 
-/// Refuses images of a part of the sensor or with binned pixels, whose K is not that of the file.
+/// Refuses a region of interest and binned pixels, for which K of the file is not that of the
+/// images.
 fn check_whole(root: &Field) -> Result<()> {
     for key in ["binning_x", "binning_y"] {
         if let Some(field) = root

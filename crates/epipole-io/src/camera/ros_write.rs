@@ -6,7 +6,7 @@ use crate::{Error, Result};
 use epipole::camera::{Camera, LensKind};
 use std::fmt::Write;
 
-/// One camera, without rectification.
+/// Writes one camera, without rectification.
 pub(super) fn write(cameras: &Cameras) -> Result<String> {
     let [named] = &cameras.cameras[..] else {
         return Err(Error::unsupported(format!(

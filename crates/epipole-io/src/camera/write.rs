@@ -8,11 +8,12 @@ use crate::{Error, Result};
 /// Writes cameras: [`CameraFormat::Epipole`], [`OpenCv`](CameraFormat::OpenCv) (YAML),
 /// [`Ros`](CameraFormat::Ros) or [`Colmap`](CameraFormat::Colmap) (`cameras.txt`).
 ///
-/// Numbers have all digits: reading gives equal cameras. COLMAP's has no names and no motion.
+/// Numbers have all digits, so cameras read back are equal. COLMAP's format has no names and no
+/// motion.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for another format, for a lens or a number of cameras that it cannot
-/// hold, and without a camera.
+/// [`Error::Unsupported`] for other formats, for a lens or a number of cameras that the format
+/// cannot hold, and without a camera.
 ///
 /// ```
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,6 +1,6 @@
-//! Numbers that every reader of YAML takes for numbers.
+//! Numbers that every YAML reader recognizes.
 
-/// All digits, with a point, and an exponent with a sign: YAML 1.1 takes `1e5` for a word.
+/// Writes all digits, a point, and a signed exponent, because `1e5` is a string in YAML 1.1.
 fn number(value: f64) -> String {
     let text = format!("{value:?}");
     match text.split_once('e') {
@@ -13,7 +13,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A list, without brackets.
+/// Writes a list, without brackets.
 pub(super) fn numbers(values: &[f64]) -> String {
     let all: Vec<String> = values.iter().map(|&value| number(value)).collect();
     all.join(", ")

@@ -1,7 +1,7 @@
 //! PLY: points with colors, ASCII or binary.
 //!
-//! Read are the properties x, y, z and red, green, blue of the element `vertex`, of any type and
-//! order; other properties are skipped, and other elements, such as faces, are told.
+//! The reader takes the properties x, y, z and red, green, blue of the element `vertex`, of any
+//! type and order. It skips other properties, and notes other elements such as faces.
 //!
 //! Source: Turk 1994, "The PLY polygon file format".
 
@@ -12,7 +12,7 @@ use epipole::stereo::PointCloud;
 use nalgebra::{Point3, Vector3};
 use std::str::SplitAsciiWhitespace;
 
-/// A type of numbers.
+/// A number type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Scalar {
     I8,
@@ -49,7 +49,7 @@ impl Scalar {
         }
     }
 
-    /// Factor from a color of this type to 0…255.
+    /// Returns the factor from a color of this type to 0…255.
     fn color_scale(self) -> f64 {
         match self {
             Self::I8 | Self::U8 | Self::I32 | Self::U32 => 1.0,
@@ -207,7 +207,7 @@ impl Body<'_> {
         }
     }
 
-    /// The value of a property; of a list, nothing.
+    /// Reads the value of a property; skips a list.
     fn property(&mut self, property: &Property) -> Result<f64> {
         let Some(length) = property.length else {
             return self.value(property.scalar);
@@ -219,7 +219,7 @@ impl Body<'_> {
                 property.name
             )));
         }
-        // A wrong length ends at the end of the file.
+        // A wrong length fails at the end of the file.
         let mut left = count;
         while left > 0.0 {
             self.value(property.scalar)?;
@@ -229,7 +229,7 @@ impl Body<'_> {
     }
 }
 
-/// Points of a PLY file. Returned with them: sentences on what was left out, points with NaN or
+/// Reads the points of a PLY file. Also returns sentences on omitted parts: points with NaN or
 /// infinite coordinates, and the faces of a mesh.
 ///
 /// # Errors
@@ -259,7 +259,7 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
         match elements.next() {
             None => return Err(Error::malformed("the PLY file has no element vertex")),
             Some(element) if element.name == "vertex" => break element,
-            // Without properties it has no bytes, whatever its number.
+            // Without properties it has no bytes, whatever its count.
             Some(element) if element.properties.is_empty() => {}
             Some(element) => {
                 for _ in 0..element.count {
@@ -324,7 +324,7 @@ pub fn read_ply(bytes: &[u8]) -> Result<(PointCloud, Vec<String>)> {
     Ok((cloud, notes))
 }
 
-/// Sentence on an element that is not read, if it has entries.
+/// Returns a sentence on an element that is not read, if it has entries.
 fn left_out(element: &Element) -> Option<String> {
     match (element.name.as_str(), element.count) {
         ("vertex", _) | (_, 0) => None,
@@ -334,7 +334,7 @@ fn left_out(element: &Element) -> Option<String> {
     }
 }
 
-/// Bytes of a binary little-endian PLY file: x, y, z as `float`; nx, ny, nz as `float`, red, green,
+/// Writes a binary little-endian PLY file: x, y, z as `float`; nx, ny, nz as `float`, red, green,
 /// blue as `uchar` and confidence as `float` if all points have them.
 ///
 /// ```
@@ -352,7 +352,7 @@ pub fn write_ply(cloud: &PointCloud) -> Vec<u8> {
     ply_of(cloud, &[])
 }
 
-/// Bytes of a PLY file with faces, if there are any.
+/// Writes a PLY file with faces, if there are any.
 pub(crate) fn ply_of(cloud: &PointCloud, triangles: &[[u32; 3]]) -> Vec<u8> {
     let is_whole = |len: usize| len > 0 && len == cloud.points.len();
     let has_normals = is_whole(cloud.normals.len());

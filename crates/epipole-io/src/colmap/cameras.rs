@@ -10,10 +10,10 @@ use crate::{Error, Result};
 use epipole::camera::Camera;
 use std::fmt::Write;
 
-/// A camera with its ID, or the sentence why the library does not have it.
+/// A camera with its ID, or the reason why it is not supported.
 pub(crate) type ListedCamera = (u32, Listed<Camera>);
 
-/// Cameras of `cameras.txt`.
+/// Reads `cameras.txt`.
 ///
 /// # Errors
 /// [`Error::Malformed`] with the line.
@@ -31,7 +31,7 @@ pub(crate) fn read_cameras_text(text: &str) -> Result<Vec<ListedCamera>> {
     Ok(cameras)
 }
 
-/// Text of `cameras.txt`.
+/// Writes `cameras.txt`.
 ///
 /// * `cameras`: with their IDs
 pub(crate) fn write_cameras_text(cameras: &[(u32, Camera)]) -> String {
@@ -49,11 +49,11 @@ pub(crate) fn write_cameras_text(cameras: &[(u32, Camera)]) -> String {
     text
 }
 
-/// Cameras of `cameras.bin`.
+/// Reads `cameras.bin`.
 ///
 /// # Errors
-/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for a number of a model that is
-/// not known: nor is its length.
+/// [`Error::Malformed`] with the position, [`Error::Unsupported`] for an unknown model, whose
+/// length is unknown too.
 pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<ListedCamera>> {
     let mut bytes = Bytes::new(bytes);
     let mut cameras = Vec::new();
@@ -71,7 +71,7 @@ pub(crate) fn read_cameras_binary(bytes: &[u8]) -> Result<Vec<ListedCamera>> {
     Ok(cameras)
 }
 
-/// Bytes of `cameras.bin`.
+/// Writes `cameras.bin`.
 ///
 /// * `cameras`: with their IDs
 pub(crate) fn write_cameras_binary(cameras: &[(u32, Camera)]) -> Vec<u8> {

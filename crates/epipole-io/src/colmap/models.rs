@@ -11,15 +11,15 @@ use epipole::camera::{Camera, Intrinsics, Lens, LensKind};
 /// Coefficients of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Coefficients {
-    /// The first ones of a lens, in its order.
+    /// The first coefficients of a lens, in its order.
     First(LensKind),
-    /// Those of the rational lens; of Brown's if its denominator is 1.
+    /// Coefficients of the rational lens, or of Brown's if the denominator is 1.
     FullOpenCv,
     /// k1, k2, p1, p2, k3, k4, sx1, sy1: a fisheye unless it has tangential or prism terms.
     ThinPrism,
-    /// k0 to k5, p0, p1, s0 to s3: likewise, with two radial terms more.
+    /// k0 to k5, p0, p1, s0 to s3: like `ThinPrism`, with two more radial terms.
     RadTanThinPrism,
-    /// Those of a lens that the library does not have.
+    /// Coefficients of an unsupported lens.
     Other,
 }
 
@@ -83,7 +83,7 @@ impl Model {
         self.num_focals + 2 + self.num_coefficients
     }
 
-    /// The lens of these coefficients, as many as the model has.
+    /// Returns the lens of the model's coefficients.
     fn lens(&self, k: &[f64]) -> Result<Lens> {
         let (kind, mut numbers) = match self.coefficients {
             Coefficients::First(kind) => (kind, k.to_vec()),
@@ -124,7 +124,7 @@ fn unsupported(name: &str) -> Error {
     ))
 }
 
-/// Model number and number of parameters of a binary camera.
+/// Returns name and number of parameters of a model by its ID in binary files.
 pub(crate) fn model_of_id(id: i32) -> Result<(&'static str, usize)> {
     let model = usize::try_from(id).ok().and_then(|id| MODELS.get(id));
     let model = model.ok_or_else(|| {
@@ -136,7 +136,7 @@ pub(crate) fn model_of_id(id: i32) -> Result<(&'static str, usize)> {
     Ok((model.name, model.num_params()))
 }
 
-/// A camera of a COLMAP model.
+/// Converts a camera of COLMAP.
 ///
 /// * `name`: of the model, such as `OPENCV`
 /// * `width`, `height`: of its images, pixels
@@ -144,8 +144,8 @@ pub(crate) fn model_of_id(id: i32) -> Result<(&'static str, usize)> {
 ///
 /// # Errors
 /// [`Error::Malformed`] for another number of parameters or an impossible size,
-/// [`Error::Unsupported`] for a model that the library does not have, [`Error::Invalid`] for a
-/// focal length ≤ 0 and for values that are not finite.
+/// [`Error::Unsupported`] for an unsupported model, [`Error::Invalid`] for a focal length ≤ 0 and
+/// for values that are not finite.
 pub(crate) fn camera_from_colmap(
     name: &str,
     width: u64,
@@ -194,9 +194,9 @@ pub(crate) struct ColmapCamera {
     pub(crate) params: Vec<f64>,
 }
 
-/// The COLMAP model of a camera and its parameters: `PINHOLE`; `OPENCV` for Brown's lens,
+/// Returns the COLMAP model of a camera and its parameters: `PINHOLE`; `OPENCV` for Brown's lens,
 /// `FULL_OPENCV` if it has a k3 and for the rational lens; `OPENCV_FISHEYE`; `DIVISION`, which
-/// COLMAP has from its version 4 on.
+/// COLMAP supports since version 4.
 pub(crate) fn colmap_from_camera(camera: &Camera) -> ColmapCamera {
     let all = camera.lens.coefficients();
     let (id, count) = match camera.lens.kind() {

@@ -4,7 +4,7 @@ use crate::text::number;
 use crate::{Error, Result};
 use std::str::SplitAsciiWhitespace;
 
-/// Words of a line, taken one by one.
+/// Words of a line, read one by one.
 pub(crate) struct Words<'a> {
     line: usize,
     words: SplitAsciiWhitespace<'a>,
@@ -16,7 +16,7 @@ impl<'a> Words<'a> {
         Self { line, words }
     }
 
-    /// * `what`: the value, for the error if it is missing
+    /// * `what`: name of the value, for the error if it is missing
     pub(crate) fn word(&mut self, what: &str) -> Result<&'a str> {
         (self.words.next()).ok_or_else(|| Error::at(self.line, format!("{what} is missing")))
     }
@@ -34,18 +34,18 @@ impl<'a> Words<'a> {
         Ok(numbers)
     }
 
-    /// The next word, if there is one.
+    /// Returns the next word, if there is one.
     pub(crate) fn next(&mut self) -> Option<&'a str> {
         self.words.next()
     }
 
-    /// All numbers that are left.
+    /// Reads all remaining numbers.
     pub(crate) fn rest(self) -> Result<Vec<f64>> {
         let line = self.line;
         self.words.map(|word| number(line, word)).collect()
     }
 
-    /// A number that may be NaN or infinite.
+    /// Reads a number that may be NaN or infinite.
     pub(crate) fn any_number(&mut self, what: &str) -> Result<f64> {
         let word = self.word(what)?;
         (word.parse()).map_err(|_| Error::at(self.line, format!("\"{word}\" is not a number")))
@@ -57,13 +57,13 @@ impl<'a> Words<'a> {
     }
 }
 
-/// Whether COLMAP skips a line.
+/// Returns whether COLMAP skips a line.
 pub(crate) fn is_skipped(line: &str) -> bool {
     let line = line.trim();
     line.is_empty() || line.starts_with('#')
 }
 
-/// The lines with content and their numbers, counted from 1.
+/// Returns the lines with content and their numbers, counted from 1.
 pub(crate) fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
     lines.filter(|(_, line)| !is_skipped(line))

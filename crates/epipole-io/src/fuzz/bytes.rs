@@ -1,4 +1,4 @@
-//! Random bytes behind the first bytes of a format, for the readers that look at those alone.
+//! Random bytes after the signature of a format.
 
 use crate::bundle::read_bal;
 use crate::cloud::read_ply;
@@ -32,7 +32,7 @@ const STARTS: [&[u8]; 20] = [
     b"1 1 1\n",
 ];
 
-/// Reads the bytes as everything that has a start of its own.
+/// Reads the bytes with every reader of a format with a signature.
 fn read_all(bytes: &[u8]) -> Result<(), TestCaseError> {
     let is_told = |error: crate::Error| !error.to_string().is_empty();
     let options = DecodeOptions::default().with_max_pixels(20_000);

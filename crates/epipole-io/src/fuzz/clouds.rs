@@ -1,4 +1,4 @@
-//! Points of any value.
+//! Point clouds with arbitrary values.
 
 use crate::cloud::{read_ply, write_ply};
 use crate::damage::config;

@@ -32,7 +32,7 @@ const G2O: [&str; 6] = [
      EDGE_SE3_TRACKXYZ 0 1 3 0.1 0.2 0.3 2 0.5 0.25 3 1 5\n",
 ];
 
-/// Whether the error names a line of the text.
+/// Returns whether the error names a line of the text.
 fn is_told(error: &Error, text: &str) -> bool {
     match error {
         Error::Malformed { line, .. } => {
@@ -61,7 +61,7 @@ proptest! {
                 let options = LmOptions::default().with_max_iterations(3);
                 let solved = adjust_bal(&mut problem, &options, RobustLoss::Trivial, &mut ());
                 if solved.is_ok() {
-                    // The output can be read again: all of it is finite.
+                    // The output can be read again, so all numbers are finite.
                     prop_assert!(read_bal(&write_bal(&problem)).is_ok());
                 }
             }

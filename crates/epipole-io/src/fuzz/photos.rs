@@ -13,7 +13,8 @@ use tiff::encoder::{Compression, Predictor, TiffEncoder, colortype};
 const WIDTH: u32 = 13;
 const HEIGHT: u32 = 9;
 
-/// Turned by a quarter, with a focal length of 35 mm equivalent and one in millimeters.
+/// Returns EXIF data with a rotation by 90°, a 35 mm equivalent focal length and one in
+/// millimeters.
 fn exif() -> Vec<u8> {
     let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
     let entry = |data: &mut Vec<u8>, tag: u16, kind: u16, value: u32| {
@@ -44,7 +45,7 @@ fn pixels() -> Vec<u8> {
     values.collect()
 }
 
-/// A picture in one of the formats, with these EXIF data.
+/// Encodes an image in one of the formats, with EXIF data.
 fn encoded(format: usize, exif: Vec<u8>) -> Vec<u8> {
     let pixels = pixels();
     let mut bytes = Vec::new();
@@ -82,7 +83,7 @@ static UNCOMPRESSED: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
     })
 });
 
-/// TIFF files of bytes, words and floats, in all compressions that can be written.
+/// TIFF files of bytes, words and floats, in all compressions of the encoder.
 static TIFF: LazyLock<[Vec<u8>; 3]> = LazyLock::new(|| {
     let compressions = [
         Compression::Packbits,
@@ -115,7 +116,7 @@ static TIFF: LazyLock<[Vec<u8>; 3]> = LazyLock::new(|| {
 static OPTIONS: LazyLock<DecodeOptions> =
     LazyLock::new(|| DecodeOptions::default().with_max_pixels(20_000));
 
-/// An answer holds what it says, an error is one of the two that decoding has.
+/// Checks that a result is consistent, or that the error is one of the two of decoding.
 fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
     match decode_gray(bytes, &OPTIONS) {
         Ok(decoded) => {
@@ -143,7 +144,7 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
 fn the_pictures_to_damage_are_right() {
     for bytes in RIGHT.iter() {
         let decoded = decode_gray(bytes, &OPTIONS).unwrap();
-        // Upright they are turned, and say how long the lens is.
+        // The images are rotated upright, and have a focal length.
         assert_eq!(decoded.image.dimensions(), (HEIGHT, WIDTH));
         assert!(decoded.focal_px.is_some());
     }
@@ -181,7 +182,7 @@ proptest! {
         check(&damage_bytes(&TIFF[depth], &changes))?;
     }
 
-    /// The checksum of the file is right, so that the damage arrives where EXIF is read.
+    /// The checksum of the file is valid, so that the damage reaches the EXIF reader.
     #[test]
     fn exif_data(format in 0..3_usize, changes in some_damage()) {
         let damaged = damage_bytes(&exif(), &changes);

@@ -71,7 +71,7 @@ const MATCHES: [&str; 5] = [
     "[{\"u1\": 1, \"v1\": 2, \"U2\": 3, \"v2\": 4}, {\"u1\": 1, \"v1\": 2, \"U2\": 3, \"v2\": 4.5, \"z\": null}]",
 ];
 
-/// COLMAP's binary file of one `SIMPLE_PINHOLE` camera.
+/// Returns COLMAP's binary file of one `SIMPLE_PINHOLE` camera.
 fn colmap_binary() -> Vec<u8> {
     let mut bytes = 1_u64.to_le_bytes().to_vec();
     bytes.extend(1_u32.to_le_bytes());
@@ -178,7 +178,7 @@ fn the_files_to_damage_are_right() {
     }
 }
 
-/// Half a megabyte of one pattern each: 15 ms, but minutes in quadratic time.
+/// Half a megabyte of one pattern each takes 15 ms, but minutes in quadratic time.
 #[test]
 fn long_files_take_no_quadratic_time() {
     let patterns = [

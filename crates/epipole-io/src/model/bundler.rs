@@ -1,9 +1,9 @@
 //! Bundler's `bundle.out`, version 0.3, with the names of its images in `list.txt`.
 //!
 //! Cameras look along −z with y up; pixels are relative to the principal point, x right, y up. The
-//! file has one focal length and two radial terms a camera, neither principal point nor image size:
-//! the principal point is the middle of the image, which its file tells, or else of the smallest
-//! image that holds all keypoints.
+//! file has one focal length and two radial terms per camera, but neither principal point nor image
+//! size. The principal point is the center of the image, whose size is read from its file, or else
+//! is the smallest that holds all keypoints.
 //!
 //! Source: Snavely, "Bundler v0.4 User's Manual", §"Output format and scene representation".
 
@@ -16,10 +16,10 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// Largest side of an image, pixels: keypoints beyond are no pixels.
+/// Maximum side of an image, pixels; keypoints beyond it are not pixels.
 const MAX_SIDE_PX: f64 = 1e6;
 
-/// Words of a text with their lines.
+/// Words of a text with their line numbers.
 struct Words<'a, I: Iterator<Item = (usize, &'a str)>>(I);
 
 impl<'a, I: Iterator<Item = (usize, &'a str)>> Words<'a, I> {
@@ -46,7 +46,7 @@ impl<'a, I: Iterator<Item = (usize, &'a str)>> Words<'a, I> {
     }
 }
 
-/// Names of `list.txt`: a name may be followed by 0 and a focal length.
+/// Reads the names of `list.txt`, which may be followed by 0 and a focal length.
 fn names(text: &str) -> Vec<String> {
     let name = |line: &str| {
         let line = line.trim();
@@ -63,7 +63,7 @@ fn names(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// A camera of the file, and its keypoints by their numbers.
+/// A camera of the file, and its keypoints by number.
 struct Entry {
     focal: [f64; 3],
     cam_from_world: RigidTransform,
@@ -72,9 +72,9 @@ struct Entry {
 
 /// Reads a file.
 ///
-/// * `lists`: names of the list of images, the first that is there counts
+/// * `lists`: names of the list of images, of which the first that exists is read
 ///
-/// Returned with it: sentences on what was left out.
+/// Also returns sentences on omitted parts.
 pub(super) fn read(
     bytes: &[u8],
     lists: &[String],
@@ -208,7 +208,7 @@ pub(super) fn read(
     Ok((model, notes))
 }
 
-/// The smallest even size that holds all keypoints around its middle, pixels.
+/// Returns the smallest even size that holds all keypoints around its center, pixels.
 fn size(entries: &[Option<Entry>]) -> Result<(u32, u32)> {
     let mut farthest = Vector3::new(1.0_f64, 1.0, 0.0);
     let keypoints = (entries.iter().flatten()).flat_map(|entry| entry.keypoints.values());
@@ -226,9 +226,9 @@ fn size(entries: &[Option<Entry>]) -> Result<(u32, u32)> {
 }
 
 impl Model {
-    /// Bundler's `bundle.out` and `list.txt`. Pixels are relative to the principal point, and
-    /// vertical ones multiplied by fx / fy, since Bundler has one focal length: projections fit,
-    /// while principal points and image sizes are lost.
+    /// Writes Bundler's `bundle.out` and `list.txt`. Pixels are relative to the principal point,
+    /// and vertical coordinates are multiplied by fx / fy, because Bundler has one focal length.
+    /// Projections are preserved; principal points and image sizes are lost.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for lenses with more than k1 and k2, [`Error::Malformed`] if an index
@@ -306,7 +306,7 @@ mod tests {
         assert_eq!(model.images.len(), 1);
         assert_eq!((model.images[0].id, &*model.images[0].name), (2, "c d.jpg"));
         assert_eq!((model.cameras[0].width, model.cameras[0].height), (54, 108));
-        // r² = 0.3125, so the ray (0.25, −0.5) bends to 1.03125 times as much; the file is off.
+        // r² = 0.3125, so the ray (0.25, −0.5) is scaled by 1.03125; the file is off.
         let pixel = model.cameras[0]
             .project(&(model.images[0].cam_from_world * model.points[0].position))
             .unwrap();

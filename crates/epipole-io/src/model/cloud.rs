@@ -5,7 +5,7 @@ use crate::cloud::write_ply;
 use epipole::stereo::PointCloud;
 
 impl Model {
-    /// The points with their colors.
+    /// Returns the points with their colors.
     pub fn cloud(&self) -> PointCloud {
         PointCloud {
             points: self.points.iter().map(|point| point.position).collect(),
@@ -14,7 +14,7 @@ impl Model {
         }
     }
 
-    /// The points with their colors as a binary little-endian PLY file.
+    /// Writes the points with their colors as a binary little-endian PLY file.
     pub fn to_ply(&self) -> Vec<u8> {
         write_ply(&self.cloud())
     }

@@ -1,6 +1,6 @@
 //! COLMAP's binary model: `cameras.bin`, `images.bin` and `points3D.bin`.
 //!
-//! The same values as in text, little-endian; names end with a byte 0, so they may hold blanks.
+//! Values as in text, little-endian; names end with a byte 0, so they may contain blanks.
 //!
 //! Source: COLMAP's documentation, "Output format", "Binary file format"; COLMAP 4,
 //! `src/colmap/scene/reconstruction_io_binary.cc`.
@@ -77,7 +77,7 @@ fn read_points(bytes: &[u8]) -> Result<Vec<PointPart>> {
 ///
 /// * `rigs`: `rigs.bin` and `frames.bin`
 ///
-/// Returned with it: sentences on what was left out.
+/// Also returns sentences on omitted parts.
 pub(super) fn read(
     cameras: &[u8],
     images: &[u8],
@@ -102,9 +102,9 @@ pub(super) fn read(
 }
 
 impl Model {
-    /// COLMAP's binary model: `cameras.bin`, `images.bin`, `points3D.bin`, and `rigs.bin` with
-    /// `frames.bin`, with the cameras and IDs of [`to_colmap_text`](Self::to_colmap_text). Names
-    /// may hold blanks; a byte 0 in them becomes `_`.
+    /// Writes COLMAP's binary model: `cameras.bin`, `images.bin`, `points3D.bin`, and `rigs.bin`
+    /// with `frames.bin`, with the cameras and IDs of [`to_colmap_text`](Self::to_colmap_text).
+    /// Names may contain blanks; a byte 0 in them becomes `_`.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
@@ -156,7 +156,7 @@ impl Model {
 mod tests {
     use super::*;
 
-    /// `cameras.bin` of one SIMPLE_RADIAL camera with ID 12.
+    /// Returns `cameras.bin` of one SIMPLE_RADIAL camera with ID 12.
     fn cameras() -> Vec<u8> {
         let mut bytes = vec![1, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 0, 2, 0, 0, 0];
         bytes.extend(640u64.to_le_bytes());

@@ -1,4 +1,4 @@
-//! COLMAP's lists, with the IDs that join them.
+//! COLMAP's lists, joined by IDs.
 
 use super::colmap_rigs::{FramePart, RigPart};
 use super::notes::LeftOut;
@@ -11,7 +11,7 @@ use epipole::camera::RigidTransform;
 use nalgebra::{Point2, Point3};
 use std::collections::{HashMap, HashSet};
 
-/// Lists of cameras, images and points as files have them.
+/// Lists of cameras, images and points as in files.
 pub(super) struct Parts {
     pub(super) cameras: Vec<ListedCamera>,
     pub(super) images: Vec<ImagePart>,
@@ -48,7 +48,7 @@ impl ImagePart {
     }
 }
 
-/// Rigs with the cameras that are there, and the place of each image in them.
+/// Rigs with their supported cameras, and the place of each image in them.
 struct Rigs {
     rigs: Vec<Rig>,
     /// Rig and frame, by ID of the image.
@@ -59,7 +59,8 @@ struct Rigs {
 }
 
 impl Rigs {
-    /// The frame of a rig becomes that of the first camera that is there and has a place.
+    /// Joins rigs and frames. The frame of a rig becomes that of its first supported camera with a
+    /// pose.
     fn join(
         rigs: Vec<RigPart>,
         frames: Vec<FramePart>,
@@ -133,7 +134,7 @@ impl Rigs {
         Ok(all)
     }
 
-    /// Pose of an image, which is added to its frame; `None` without one.
+    /// Adds an image to its frame and returns its pose, if it has one.
     fn place(&mut self, part: &ImagePart, camera: usize, index: usize) -> Option<RigidTransform> {
         let Some(&(rig, frame)) = self.place_of_image.get(&part.id) else {
             return part.pose().filter(|_| !self.lost.contains(&part.id));
@@ -148,7 +149,7 @@ impl Rigs {
         Some(found)
     }
 
-    /// The rigs, if one of them has several cameras.
+    /// Returns the rigs, if one of them has several cameras.
     fn finish(mut self) -> Vec<Rig> {
         if self.rigs.iter().all(|rig| rig.cameras.len() < 2) {
             return Vec::new();
@@ -161,7 +162,7 @@ impl Rigs {
 }
 
 impl Parts {
-    /// The model, with sentences on what was left out.
+    /// Returns the model, with sentences on omitted parts.
     pub(super) fn join(self) -> Result<(Model, Vec<String>)> {
         let mut left_out = LeftOut::default();
         let (mut camera_of_id, mut why_of_id) = (HashMap::new(), HashMap::new());
@@ -254,7 +255,7 @@ impl Parts {
                 id: part.id,
                 position: part.position,
                 color: part.color,
-                // COLMAP has −1 where it did not compute one.
+                // COLMAP writes −1 for an error that it did not compute.
                 error_px: Some(part.error_px).filter(|error| *error >= 0.0 && error.is_finite()),
                 track,
             });

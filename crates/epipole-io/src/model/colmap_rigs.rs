@@ -1,8 +1,8 @@
 //! COLMAP's rigs and frames: `rigs.txt` and `frames.txt`, or `rigs.bin` and `frames.bin`, which
-//! versions before 3.12 do not have.
+//! COLMAP has since 3.12.
 //!
-//! The pose of an image is `sensor_from_rig * rig_from_world` then; that in the list of images is
-//! for older programs.
+//! The pose of an image is then `sensor_from_rig * rig_from_world`; the pose in the list of images
+//! is for older programs.
 //!
 //! Source: COLMAP 4, `src/colmap/scene/reconstruction_io_text.cc` and `…_binary.cc`.
 
@@ -14,9 +14,9 @@ use crate::{Result, text};
 use epipole::camera::RigidTransform;
 use std::fmt::Write;
 
-/// Number of a camera among the types of sensors.
+/// Sensor type of a camera in binary files.
 const CAMERA: i32 = 0;
-/// Its name.
+/// Sensor type of a camera in text files.
 const CAMERA_NAME: &str = "CAMERA";
 
 /// A rig of the list.
@@ -88,7 +88,7 @@ impl Values for Bytes<'_> {
     }
 }
 
-/// A pose; `None` if it is not finite or its quaternion is 0.
+/// Reads a pose; `None` if it is not finite or its quaternion is 0.
 fn read_pose(values: &mut impl Values) -> Result<Option<RigidTransform>> {
     let mut numbers = [0.0; 7];
     for number in &mut numbers {
@@ -124,7 +124,7 @@ fn read_frame(values: &mut impl Values) -> Result<FramePart> {
         let is_camera = values.is_camera()?;
         values.id("the sensor ID")?;
         let image = values.image()?;
-        // An ID beyond 32 bits is no image's.
+        // An ID beyond 32 bits is not that of an image.
         images.extend(u32::try_from(image).ok().filter(|_| is_camera));
     }
     Ok(FramePart {
@@ -177,7 +177,8 @@ fn numbers(pose: &RigidTransform) -> [f64; 7] {
 }
 
 impl Model {
-    /// `rigs.txt` and `frames.txt`; nothing where each camera moves alone: COLMAP does without.
+    /// Writes `rigs.txt` and `frames.txt`; nothing if each camera moves alone, as COLMAP does not
+    /// need them.
     pub(super) fn rigs_text(&self) -> Vec<ModelFile> {
         let all = self.rigs_of_all();
         if all.is_empty() {
@@ -222,7 +223,7 @@ impl Model {
         ]
     }
 
-    /// `rigs.bin` and `frames.bin`, as [`rigs_text`](Self::rigs_text).
+    /// Writes `rigs.bin` and `frames.bin`, as [`rigs_text`](Self::rigs_text).
     pub(super) fn rigs_binary(&self) -> Vec<ModelFile> {
         let all = self.rigs_of_all();
         if all.is_empty() {

@@ -1,7 +1,7 @@
 //! COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`.
 //!
 //! Poses are `cam_from_world`, quaternions begin with w, pixel centers are at halves. COLMAP reads
-//! a name up to its first blank; here it takes the rest of its line.
+//! a name up to its first blank, this reader up to the end of the line.
 //!
 //! Source: COLMAP's documentation, "Output format", "Text format".
 
@@ -15,7 +15,7 @@ use epipole::camera::{pixel_from_colmap, pixel_to_colmap};
 use nalgebra::{Point2, Point3};
 use std::fmt::Write;
 
-/// The name behind the first nine words.
+/// Returns the name after the first nine words.
 fn name_of(line: &str) -> &str {
     let mut rest = line.trim();
     for _ in 0..9 {
@@ -94,7 +94,7 @@ fn read_points(text: &str) -> Result<Vec<PointPart>> {
 ///
 /// * `rigs`: `rigs.txt` and `frames.txt`
 ///
-/// Returned with it: sentences on what was left out.
+/// Also returns sentences on omitted parts.
 pub(super) fn read(
     cameras: &[u8],
     images: &[u8],
@@ -122,15 +122,14 @@ pub(super) fn read(
 }
 
 impl Model {
-    /// COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`, and where a rig has
-    /// several cameras, `rigs.txt` and `frames.txt`, which COLMAP reads from 3.12 on.
+    /// Writes COLMAP's text model: `cameras.txt`, `images.txt` and `points3D.txt`, and if a rig has
+    /// several cameras, `rigs.txt` and `frames.txt`, which COLMAP reads since 3.12.
     ///
-    /// Cameras are `PINHOLE`, or `OPENCV` if a lens of Brown's model bends rays, `FULL_OPENCV` if
-    /// it has a k3, and for the rational model; `OPENCV_FISHEYE` for fisheyes, `DIVISION` for the
-    /// division model, which COLMAP has from its version 4 on. COLMAP takes points seen 90° and
-    /// more off the axis of a fisheye to be behind the camera. A
-    /// name takes the rest of its line, so line breaks in it become `_`; COLMAP itself reads it up
-    /// to the first blank, in text files only.
+    /// Cameras are `PINHOLE`; `OPENCV` for Brown's lens, `FULL_OPENCV` if it has a k3 and for the
+    /// rational lens; `OPENCV_FISHEYE` for fisheyes; `DIVISION` for the division model, which
+    /// COLMAP supports since version 4. COLMAP treats points 90° and more off the axis of a fisheye
+    /// as behind the camera. A name extends to the end of its line, so line breaks in it become
+    /// `_`; COLMAP itself reads it up to the first blank, in text files only.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
@@ -220,7 +219,7 @@ mod tests {
         assert_eq!(names, [(9, "a b  #1.jpg"), (4, "é.png"), (7, "last")]);
         assert_eq!(model.cameras[0].intrinsics.principal_point().x, 319.5);
         assert_eq!(model.images[0].keypoints[1], Point2::new(319.5, 239.5));
-        // The quaternion was of length 2.
+        // The quaternion has length 2.
         assert_eq!(
             model.images[0].cam_from_world,
             epipole::camera::RigidTransform::translation(1.0, 2.0, 3.0)

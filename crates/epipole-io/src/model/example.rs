@@ -4,14 +4,14 @@ use super::{Model, ModelImage, ModelPoint, Rig, RigCamera, RigFrame};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform, look_at};
 use nalgebra::{Point3, Vector3};
 
-/// Names that files, shells and text models stumble over.
+/// Names that are difficult for files, shells and text models.
 const NAMES: [&str; 4] = ["a b.jpg", "Ü/é è.png", "c.d.e f.jpeg", "plain"];
 
 fn lens(kind: LensKind, coefficients: &[f64]) -> Lens {
     Lens::from_coefficients(kind, coefficients).unwrap()
 }
 
-/// A lens of each kind.
+/// Returns a lens of each kind.
 pub(super) fn lenses() -> [Lens; 5] {
     [
         Lens::NONE,
@@ -25,7 +25,8 @@ pub(super) fn lenses() -> [Lens; 5] {
     ]
 }
 
-/// Four images by cameras with these lenses, in turn; focal lengths are equal if `is_square`.
+/// Returns four images by cameras with these lenses, cyclically; focal lengths are equal if
+/// `is_square`.
 pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
     let fy = if is_square { 500.0 } else { 501.25 };
     let camera = |(n, lens): (usize, &Lens)| Camera {
@@ -77,7 +78,7 @@ pub(super) fn example(lenses: &[Lens], is_square: bool) -> Model {
     }
 }
 
-/// The same with the first two cameras in a rig, and the third in one of its own.
+/// Puts the first two cameras in a rig, and the third in a separate one.
 pub(super) fn in_rigs(mut model: Model) -> Model {
     let cam_from_rig =
         RigidTransform::new(Vector3::new(0.5, 0.0, 0.1), Vector3::new(0.1, 0.2, 0.3));
@@ -109,7 +110,8 @@ pub(super) fn in_rigs(mut model: Model) -> Model {
     model
 }
 
-/// Largest difference of cameras, poses, keypoints and points; the rest is asserted to be equal.
+/// Returns the largest difference of cameras, poses, keypoints and points, and asserts that the
+/// rest is equal.
 pub(super) fn difference(a: &Model, b: &Model) -> f64 {
     assert_eq!(
         (a.images.len(), a.points.len()),

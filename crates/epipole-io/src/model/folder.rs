@@ -1,6 +1,6 @@
 //! The folder of a model.
 
-/// Files in the folder of a model. A function that gives their content is such a folder.
+/// Files in the folder of a model. A function from names to contents implements it.
 ///
 /// ```
 /// use epipole_io::model::ModelFolder;
@@ -9,11 +9,11 @@
 /// assert_eq!(folder.image_size("./a.pgm"), Some((3, 1)));
 /// ```
 pub trait ModelFolder {
-    /// Content of a file; `None` if it is not there.
+    /// Returns the content of a file; `None` if it does not exist.
     fn file(&self, name: &str) -> Option<Vec<u8>>;
 
-    /// Width and height of an image in the orientation of its sensor, for formats without sizes;
-    /// `None` if it is not there. Its name may lack the ending.
+    /// Returns width and height of an image in the orientation of its sensor, for formats without
+    /// sizes; `None` if it does not exist. Its name may lack the extension.
     fn image_size(&self, name: &str) -> Option<(u32, u32)> {
         let name = name.trim_start_matches("./");
         let endings = ["", ".png", ".jpg", ".jpeg"];
@@ -33,7 +33,7 @@ fn size_of(image: &[u8]) -> Option<(u32, u32)> {
     crate::photo::sensor_size(image).ok()
 }
 
-/// Without the reader of photographs.
+/// Returns `None`, without the reader of photos.
 #[cfg(not(feature = "photos"))]
 fn size_of(_: &[u8]) -> Option<(u32, u32)> {
     None

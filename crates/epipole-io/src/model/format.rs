@@ -33,7 +33,7 @@ pub enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// Name in commands.
+    /// Returns the name in commands.
     pub fn name(self) -> &'static str {
         match self {
             Self::ColmapText => "colmap-text",
@@ -47,7 +47,7 @@ impl ModelFormat {
         }
     }
 
-    /// Frames and pixels of the format, in a sentence.
+    /// Describes the frames and the pixel convention of the format in a sentence.
     pub fn convention(self) -> &'static str {
         match self {
             Self::ColmapText | Self::ColmapBinary => {
@@ -70,7 +70,7 @@ impl ModelFormat {
         }
     }
 
-    /// Losses of a model in the format, a sentence each.
+    /// Describes the losses of a model in the format, a sentence each.
     pub fn losses(self, model: &Model) -> Vec<String> {
         let mut losses = Vec::new();
         let blanks = model.images.iter().filter(|image| has_blank(&image.name));
@@ -123,14 +123,14 @@ impl ModelFormat {
     }
 }
 
-/// A model that was read.
+/// A model and its format.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadModel {
     /// Its format.
     pub format: ModelFormat,
-    /// The model.
+    /// Cameras, images and points.
     pub model: Model,
-    /// Sentences on what was left out or assumed.
+    /// Sentences on omissions and assumptions.
     pub notes: Vec<String>,
 }
 
@@ -142,10 +142,10 @@ fn with_format(format: ModelFormat, (model, notes): (Model, Vec<String>)) -> Rea
     }
 }
 
-/// Reads the model in a folder: COLMAP's files, binary ones first as COLMAP does, or one of
+/// Reads the model in a folder: COLMAP's files, binary files first as in COLMAP, or one of
 /// `transforms.json`, `sfm_data.json`, `bundle.out` and `points.ply`. `None` if there is none.
 ///
-/// * `folder`: its files
+/// * `folder`: files of the folder
 ///
 /// # Errors
 /// As [`read_model_file`]; [`Error::Malformed`] also if one of COLMAP's files is missing.
@@ -213,14 +213,14 @@ fn alone(this: &str, other: &str, ending: &str) -> Error {
     ))
 }
 
-/// Reads a model of one file, which its content tells.
+/// Reads a model of one file, whose format is recognized by its content.
 ///
-/// * `name`: of the file, within its folder
+/// * `name`: name of the file in its folder
 /// * `folder`: the other files
 ///
 /// # Errors
-/// [`Error::Malformed`] with the line or place, [`Error::Unsupported`] for another format and for
-/// cameras that the library does not have, [`Error::Invalid`] for impossible cameras.
+/// [`Error::Malformed`] with the line or place, [`Error::Unsupported`] for other formats and for
+/// unsupported cameras, [`Error::Invalid`] for impossible cameras.
 pub fn read_model_file(name: &str, bytes: &[u8], folder: &dyn ModelFolder) -> Result<ReadModel> {
     let unknown = || {
         Error::unsupported(format!(
@@ -257,7 +257,7 @@ pub fn read_model_file(name: &str, bytes: &[u8], folder: &dyn ModelFolder) -> Re
     Ok(with_format(format, read))
 }
 
-/// Format of a model of one file by its first bytes and keys, right or wrong.
+/// Returns the format of a model file by its first bytes and keys, even if it is malformed.
 pub fn format_of_file(bytes: &[u8]) -> Option<ModelFormat> {
     let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let first = start.trim_ascii_start();
@@ -278,10 +278,10 @@ pub fn format_of_file(bytes: &[u8]) -> Option<ModelFormat> {
 }
 
 impl Model {
-    /// The files of a format.
+    /// Writes the files of a format.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for cameras that the format does not have, [`Error::Malformed`] if an
+    /// [`Error::Unsupported`] for cameras that the format cannot hold, [`Error::Malformed`] if an
     /// index of the model is wrong.
     pub fn to_files(&self, format: ModelFormat) -> Result<Vec<ModelFile>> {
         match format {

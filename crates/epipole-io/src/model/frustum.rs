@@ -1,4 +1,4 @@
-//! Frusta of cameras, in sizes that suit the scene.
+//! Frusta of cameras, scaled to the scene.
 
 use super::{Model, ModelImage};
 use epipole::camera::Camera;
@@ -7,8 +7,8 @@ use nalgebra::{Point2, Point3, Vector3};
 /// Length of the frusta relative to the extent of the scene.
 pub(super) const FRUSTUM_SHARE: f64 = 0.05;
 
-/// Corners of the image at this depth, in the frame of the camera. A corner that the lens does not
-/// see, or sees behind the camera, is that of a pinhole.
+/// Returns the corners of the image at this depth, in the frame of the camera. A corner without a
+/// ray in front of the camera is that of a pinhole.
 pub(super) fn corners(camera: &Camera, depth: f64) -> [Point3<f64>; 4] {
     let (right, bottom) = (
         f64::from(camera.width) - 0.5,
@@ -23,8 +23,8 @@ pub(super) fn corners(camera: &Camera, depth: f64) -> [Point3<f64>; 4] {
     })
 }
 
-/// The median position of points and cameras, and twice the median distance from it; 1 if that is
-/// not positive.
+/// Returns the median position of points and cameras, and twice the median distance from it, or 1
+/// if that is not positive.
 pub(super) fn extent(model: &Model) -> (Point3<f64>, f64) {
     let centers = model.images.iter().map(ModelImage::center_in_world);
     let positions: Vec<Point3<f64>> = centers

@@ -29,7 +29,7 @@ fn back(model: &Model, format: ModelFormat) -> Model {
     read.model
 }
 
-/// As the format keeps it: only what it has is compared.
+/// Removes the parts that the format does not keep.
 fn kept(format: ModelFormat, mut model: Model) -> Model {
     match format {
         ModelFormat::Transforms => {
@@ -88,7 +88,7 @@ fn rigs_survive_colmap() {
         let read = back(&model, format);
         assert_eq!(read.rigs, model.rigs);
         assert!(difference(&read, &model) < 1e-12);
-        // A camera and an image without a rig get one.
+        // A camera and an image without a rig get a rig.
         let mut without = model.clone();
         without.rigs.pop();
         without.rigs[0].frames.pop();
@@ -111,7 +111,7 @@ fn the_first_camera_that_is_there_becomes_the_reference() {
     let rigs = text(&files, 3);
     files[3].bytes = rigs.replace("5 2 CAMERA 9", "5 2 IMU 9").into_bytes();
     let read = read_model_folder(&find(&files)).unwrap().unwrap();
-    // Those of camera 9 are images 0 and 3.
+    // Camera 9 took images 0 and 3.
     assert_eq!(read.model.images.len(), 2);
     let off = read.model.images[0].cam_from_world.to_matrix()
         - model.images[1].cam_from_world.to_matrix();
@@ -137,7 +137,7 @@ fn the_first_camera_that_is_there_becomes_the_reference() {
     assert_eq!(read.model.num_observations(), 16);
 }
 
-/// Bundler has no principal point; the projections fit all the same, in units of the focal length.
+/// Bundler has no principal point, but projections are equal in units of the focal length.
 #[test]
 fn projections_survive_bundler() {
     let radial = epipole::camera::Distortion {

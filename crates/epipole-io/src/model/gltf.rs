@@ -1,7 +1,7 @@
-//! glTF 2.0, binary: points and the frusta of the cameras.
+//! Binary glTF 2.0: points and the frusta of the cameras.
 //!
-//! glTF's y points up, and its cameras look along −z. A node turns the world by half a turn about
-//! x, so that a scene whose first camera is upright stands upright.
+//! glTF's y points up, and its cameras look along −z. A node rotates the world by 180° about x, so
+//! that a scene whose first camera is upright is upright.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification".
 
@@ -14,15 +14,15 @@ use epipole::camera::Camera;
 use nalgebra::Point3;
 use serde_json::json;
 
-/// Center and corners of the image at this depth, in the axes of glTF's cameras.
+/// Returns center and corners of the image at this depth, in the axes of glTF's cameras.
 fn frustum(camera: &Camera, depth: f64) -> Vec<Point3<f64>> {
     let flipped = corners(camera, depth).map(|p| Point3::new(p.x, -p.y, -p.z));
     std::iter::once(Point3::origin()).chain(flipped).collect()
 }
 
 impl Model {
-    /// The points and the frusta of the cameras as a binary glTF 2.0 file (`.glb`); each image is a
-    /// node with its name and a camera of the same field of view.
+    /// Writes the points and the frusta of the cameras as a binary glTF 2.0 file (`.glb`); each
+    /// image is a node with its name and a camera of the same field of view.
     ///
     /// # Errors
     /// [`Error::Malformed`](crate::Error::Malformed) if an index of the model is wrong.
@@ -30,7 +30,7 @@ impl Model {
         self.check()?;
         let mut buffer = Buffer::default();
         let (mut meshes, mut nodes) = (Vec::new(), Vec::new());
-        // The root comes first; its children are all others.
+        // The first node is the root, the parent of all others.
         nodes.push(json!({ "name": "world", "rotation": HALF_TURN }));
         if !self.points.is_empty() {
             let positions: Vec<_> = self.points.iter().map(|point| point.position).collect();
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(end as usize, binary.len());
         assert_eq!(json["buffers"][0]["byteLength"], binary.len());
         assert_eq!(binary[..4], 1f32.to_le_bytes());
-        // An empty model has no empty lists.
+        // An empty model is written without empty lists.
         let empty = Model::default().to_glb().unwrap();
         let (json, binary) = chunks(&empty);
         assert!(json.get("meshes").is_none() && json.get("buffers").is_none() && binary.is_empty());

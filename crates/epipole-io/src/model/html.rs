@@ -1,4 +1,4 @@
-//! A page with the model, to turn and measure in any browser: one file, without a network.
+//! An offline page of one file to rotate and measure the model in any browser.
 
 use super::frustum::{FRUSTUM_SHARE, corners, extent};
 use super::{Model, ModelImage};
@@ -11,13 +11,13 @@ use serde_json::{Value, json};
 
 const VIEWER: &str = include_str!("viewer.html");
 
-/// `3 images`, `1 image`.
+/// Returns `3 images` or `1 image`.
 fn count(number: usize, noun: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{number} {noun}{plural}")
 }
 
-/// The mean direction of an axis of the cameras in the world; `None` if it cancels.
+/// Returns the mean direction of an axis of the cameras in the world; `None` if it cancels.
 fn mean_direction(images: &[ModelImage], axis: Vector3<f64>) -> Option<Vector3<f64>> {
     let in_world = |image: &ModelImage| image.cam_from_world.rotation.inverse() * axis;
     let sum: Vector3<f64> = images.iter().map(in_world).sum();
@@ -29,7 +29,7 @@ fn numbers(vector: Vector3<f64>) -> [f64; 3] {
 }
 
 /// # Errors
-/// [`Error::Malformed`] for a triangle without one of its vertices, or a vertex without a color.
+/// [`Error::Malformed`] for a missing vertex of a triangle, or a vertex without a color.
 fn check_mesh(mesh: &Mesh) -> Result<()> {
     let num_vertices = mesh.vertices.points.len();
     let corners = mesh.triangles.as_flattened();
@@ -48,10 +48,10 @@ fn check_mesh(mesh: &Mesh) -> Result<()> {
 }
 
 impl Model {
-    /// The points, cameras and surface as a page of HTML that shows them in 3-D, with distances
+    /// Writes an HTML page that shows points, cameras and surface in 3-D, and measures distances
     /// between points. It has no links and loads nothing.
     ///
-    /// * `surface`: in the frame of the model, with a color a vertex; may be empty
+    /// * `surface`: in the frame of the model, with a color per vertex; may be empty
     ///
     /// # Errors
     /// [`Error::Malformed`](crate::Error::Malformed) if an index of the model or of the surface is
@@ -81,7 +81,8 @@ impl Model {
         Ok(page.replace("{{model}}", &model).into_bytes())
     }
 
-    /// Positions are relative to the middle of the scene, as `f32` has seven digits.
+    /// Returns the data of the viewer. Positions are relative to the center of the scene, because
+    /// `f32` has seven digits.
     fn viewer_data(&self, surface: &Mesh) -> Value {
         let (origin, extent) = extent(self);
         let encoded = |points: &mut dyn Iterator<Item = &Point3<f64>>| {
@@ -119,7 +120,7 @@ impl Model {
         };
         let up = mean_direction(&self.images, -Vector3::y());
         let front = mean_direction(&self.images, Vector3::z());
-        // Cameras around a scene look in all directions on the mean.
+        // Directions of cameras around a scene may cancel.
         let front = front.or_else(|| {
             let image = self.images.first()?;
             Some(image.cam_from_world.rotation.inverse() * Vector3::z())
@@ -171,7 +172,7 @@ mod tests {
             let there = image.center_in_world() - Point3::from(Vector3::from_vec(origin.clone()));
             assert!((Vector3::from(center) - there).norm() < 1e-12);
         }
-        // The cameras stand upright along −y.
+        // The cameras are upright along −y.
         assert!(data["up"][1].as_f64().unwrap() < -0.9);
     }
 

@@ -1,8 +1,8 @@
 //! nerfstudio's and instant-ngp's `transforms.json`.
 //!
-//! `transform_matrix` is world from camera, of cameras that look along −z with y up; pixel centers
-//! are at halves. Intrinsics are those of the document, or of a frame. Tangential and radial terms
-//! are OpenCV's. The world is taken as it is: `applied_transform` is not undone.
+//! `transform_matrix` is world from camera, for cameras that look along −z with y up; pixel centers
+//! are at halves. Intrinsics are in the document or in a frame. Tangential and radial terms are
+//! OpenCV's. `applied_transform` is not undone.
 //!
 //! Source: nerfstudio's documentation, "Data conventions"; its `cameras/camera_utils.py` for the
 //! equation of the lens.
@@ -26,7 +26,7 @@ const MODEL: &str = "camera_model";
 /// Usual name of the file of points.
 const POINTS: &str = "sparse_pc.ply";
 
-/// A pose from a matrix of three or four rows.
+/// Returns a pose from a matrix of three or four rows.
 fn cam_from_world(matrix: &Field<'_>) -> Result<RigidTransform> {
     let rows = matrix.list()?;
     if !(3..=4).contains(&rows.len()) {
@@ -47,9 +47,9 @@ fn cam_from_world(matrix: &Field<'_>) -> Result<RigidTransform> {
 
 /// Reads a document.
 ///
-/// * `folder`: its folder, for the points
+/// * `folder`: folder of the document, for the points
 ///
-/// Returned with it: sentences on what was left out.
+/// Also returns sentences on omitted parts.
 pub(super) fn read(bytes: &[u8], folder: &dyn ModelFolder) -> Result<(Model, Vec<String>)> {
     let node = Syntax::Json.parse(text::decode(bytes)?)?;
     let document = Field::root(&node);
@@ -141,7 +141,7 @@ fn fields(camera: &Camera) -> Result<Map<String, Value>> {
         "fl_x": fx, "fl_y": fy, "cx": cx, "cy": cy,
     });
     if let (Value::Object(fields), Value::Object(lens)) = (&mut fields, lens) {
-        // A k3 of 0 is left out: some programs do not know it for this model.
+        // A k3 of 0 is left out, because some programs do not support it for this model.
         fields.extend(
             lens.into_iter()
                 .filter(|(key, value)| key != "k3" || *value != 0.0),
@@ -154,9 +154,9 @@ fn fields(camera: &Camera) -> Result<Map<String, Value>> {
 }
 
 impl Model {
-    /// nerfstudio's `transforms.json`, and `sparse_pc.ply` if there are points. Names of images
-    /// become paths as they are; `file_path` is relative to the folder of the file. Keypoints and
-    /// tracks are lost.
+    /// Writes nerfstudio's `transforms.json`, and `sparse_pc.ply` if there are points. Names of
+    /// images become paths unchanged; `file_path` is relative to the folder of the file. Keypoints
+    /// and tracks are lost.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for rational and division lenses, [`Error::Malformed`] if an index of
@@ -167,7 +167,8 @@ impl Model {
         let cameras = cameras.collect::<Result<Vec<_>>>()?;
         let mut document = match &cameras[..] {
             [camera] => camera.clone(),
-            // nerfstudio reads the model of the file alone, and other values of frames.
+            // nerfstudio reads the camera model only from the document, but other values from
+            // frames.
             [first, rest @ ..] if rest.iter().all(|camera| camera[MODEL] == first[MODEL]) => {
                 Map::from_iter([(MODEL.to_owned(), first[MODEL].clone())])
             }

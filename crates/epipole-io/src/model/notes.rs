@@ -4,7 +4,7 @@ use super::Model;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Cameras that the library does not have: the sentence why, and the images that they took.
+/// Unsupported cameras: the reason, and the names of their images.
 #[derive(Default)]
 pub(super) struct LeftOut(BTreeMap<String, Vec<String>>);
 
@@ -15,7 +15,7 @@ impl LeftOut {
         images.extend(image.map(str::to_owned));
     }
 
-    /// A sentence for each camera.
+    /// Returns a sentence for each camera.
     ///
     /// # Errors
     /// [`Error::Unsupported`] if no image remains.
@@ -32,7 +32,7 @@ impl LeftOut {
     }
 }
 
-/// Names in a sentence: the first three.
+/// Lists the first three names.
 fn some(names: &[impl AsRef<str>]) -> String {
     let first: Vec<String> = names
         .iter()
@@ -46,13 +46,13 @@ fn some(names: &[impl AsRef<str>]) -> String {
 }
 
 impl Model {
-    /// Number of observations of all points.
+    /// Returns the number of observations of all points.
     pub fn num_observations(&self) -> usize {
         self.points.iter().map(|point| point.track.len()).sum()
     }
 
-    /// Mean length of all reprojection errors, pixels; `None` without observations in front of
-    /// their cameras.
+    /// Returns the mean length of all reprojection errors, pixels; `None` without observations in
+    /// front of their cameras.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
@@ -70,14 +70,14 @@ impl Model {
         Ok((count > 0.0).then(|| sum / count))
     }
 
-    /// Image, keypoint and point of each observation.
+    /// Returns image, keypoint and point of each observation.
     fn observations(&self) -> impl Iterator<Item = (usize, usize, usize)> {
         let points = self.points.iter().enumerate();
         points.flat_map(|(index, point)| point.track.iter().map(move |&(i, k)| (i, k, index)))
     }
 
-    /// Oddities of the model, a sentence each: names that programs stumble over, images without
-    /// points, points behind cameras, keypoints outside their images.
+    /// Describes oddities of the model, a sentence each: names that are difficult for programs,
+    /// images without points, points behind cameras, keypoints outside their images.
     ///
     /// # Errors
     /// [`Error::Malformed`] if an index of the model is wrong.
@@ -130,7 +130,7 @@ impl Model {
                 ));
             }
         }
-        // Of points alone nobody expects more.
+        // Only models with images are expected to have observations.
         let short = self.points.iter().filter(|point| point.track.len() < 2);
         let short = short.take(match self.images.is_empty() {
             true => 0,
@@ -161,7 +161,7 @@ impl Model {
     }
 }
 
-/// Whether COLMAP's text reader cuts a name.
+/// Returns whether COLMAP's text reader cuts a name.
 pub(super) fn has_blank(name: &str) -> bool {
     name.contains(|c: char| c.is_ascii_whitespace())
 }

@@ -17,13 +17,13 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 
-/// Bit of a number that cereal sets where it introduces the number.
+/// Bit of a pointer ID that cereal sets at its first use.
 const IS_NEW: u64 = 1 << 31;
 
-/// Number of what cereal stores without a name of its type.
+/// Type ID of cereal for objects without a type name.
 const NO_TYPE: u64 = 1 << 30;
 
-/// Keys and values of a map; absent is empty.
+/// Returns keys and values of a map; empty if it is absent.
 fn entries<'a>(document: &Field<'a>, key: &str) -> Result<Vec<(u64, Field<'a>)>> {
     let Some(map) = document.get(key) else {
         return Ok(Vec::new());
@@ -47,7 +47,7 @@ fn camera(value: &Field<'_>, names: &mut HashMap<u64, String>) -> Result<Camera>
         names.insert(number, name.word()?.to_owned());
     }
     let name = (names.get(&number)).ok_or_else(|| id.wrong("names no camera model"))?;
-    // Before the lens, old files hold the pinhole in an object of its own.
+    // Old files have the pinhole in a separate object.
     let pinhole = data.get("value0").unwrap_or_else(|| data.clone());
     let side = |key: &str| {
         let side = pinhole.need(key, "pixels")?;
@@ -113,7 +113,7 @@ fn cam_from_world(value: &Field<'_>) -> Result<RigidTransform> {
 
 /// Reads a document.
 ///
-/// Returned with it: sentences on what was left out.
+/// Also returns sentences on omitted parts.
 pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     let node = Syntax::Json.parse(text::decode(bytes)?)?;
     let document = Field::root(&node);
@@ -187,7 +187,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
             let feature = value.need("id_feat", "the number of a keypoint")?.whole()?;
             let keypoints = &mut images[image].keypoints;
             let place = match places[image].get(&feature) {
-                // Numbers are not kept where all are the same.
+                // The maximum is not an ID; files without IDs have it for all keypoints.
                 Some(place) if feature != u64::from(u32::MAX) => *place,
                 _ => {
                     keypoints.push(Point2::from(value.need("x", "a pixel")?.array::<2>()?));
@@ -221,7 +221,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Model, Vec<String>)> {
     Ok((model, notes))
 }
 
-/// Model of a camera in openMVG, and the name and numbers of its lens.
+/// Returns the openMVG model of a camera, and the name and coefficients of its lens.
 fn model_of(camera: &Camera) -> Result<(&'static str, &'static str, Vec<f64>)> {
     let k = camera.lens.coefficients();
     if camera.intrinsics.fu_px() != camera.intrinsics.fv_px() {
@@ -249,14 +249,14 @@ fn model_of(camera: &Camera) -> Result<(&'static str, &'static str, Vec<f64>)> {
 }
 
 impl Model {
-    /// openMVG's `sfm_data.json`. Colors and keypoints without a point are lost.
+    /// Writes openMVG's `sfm_data.json`. Colors and keypoints without a point are lost.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for rational and division lenses and for pixels that are not square,
     /// [`Error::Malformed`] if an index of the model is wrong.
     pub fn to_openmvg(&self) -> Result<Vec<ModelFile>> {
         self.check()?;
-        // Numbers of pointers: views come first.
+        // Pointer IDs begin with the views.
         let pointer = |index: usize| IS_NEW + 1 + index as u64;
         let mut intrinsics = Vec::new();
         let mut known: Vec<&str> = Vec::new();

@@ -1,4 +1,4 @@
-//! Models of the library's reconstructions, and back.
+//! Conversion between models and the library's reconstructions.
 
 use super::{CameraList, Model, ModelImage, ModelPoint};
 use crate::Result;
@@ -6,11 +6,11 @@ use epipole::camera::PosedCamera;
 use epipole::sfm::{Reconstruction, ScenePoint, SfmImage, TrackElement};
 
 impl Model {
-    /// The registered images of a reconstruction and its points. Images with equal size, intrinsics
-    /// and lens share a camera; the number of an image is its index plus 1. Observations by images
-    /// without a camera are left out.
+    /// Converts the registered images of a reconstruction and its points. Images with equal size,
+    /// intrinsics and lens share a camera; the ID of an image is its index plus 1. Observations by
+    /// images without a camera are left out.
     ///
-    /// * `images`: those that the reconstruction was made of
+    /// * `images`: images of the reconstruction
     pub fn from_reconstruction(reconstruction: &Reconstruction, images: &[SfmImage]) -> Self {
         let mut cameras = CameraList::default();
         let mut model = Self::default();
@@ -44,9 +44,9 @@ impl Model {
         model
     }
 
-    /// A reconstruction and its images, in the order of the model. Images that share a camera share
-    /// a lens number. Points with fewer than two observations are left out; errors that the model
-    /// does not have are computed.
+    /// Converts to a reconstruction and its images, in the order of the model. Images that share a
+    /// camera share a lens number. Points with fewer than two observations are left out; missing
+    /// errors are computed.
     ///
     /// # Errors
     /// [`Error::Malformed`](crate::Error::Malformed) if an index of the model is wrong.
@@ -232,7 +232,7 @@ mod tests {
         assert_eq!(registered[1].name, "c.png");
         assert_eq!(back.points[0].track[1].image, 1);
         assert_eq!(back.points[0].error_px, reconstruction.points[0].error_px);
-        // Without an error in the file it is computed: 0 in a, 140 px in c.
+        // A missing error is computed: 0 in a, 140 px in c.
         let mut unknown = model;
         unknown.points[0].error_px = None;
         let (back, _) = unknown.to_reconstruction().unwrap();

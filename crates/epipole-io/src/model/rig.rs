@@ -5,19 +5,19 @@ use crate::{Error, Result};
 use epipole::camera::RigidTransform;
 use std::collections::BTreeSet;
 
-/// Largest angle between an image and its place in a rig, radians: rounding.
+/// Maximum angle between an image and its pose by the rig, radians, that counts as rounding.
 const MAX_ANGLE_RAD: f64 = 1e-6;
-/// Largest distance between both, as a share of the translations that give it.
+/// Maximum distance between both, relative to the translations involved.
 const MAX_SHARE: f64 = 1e-6;
 
-/// Cameras that are fixed to each other, and the moments in which they took images.
+/// Cameras that are fixed to each other, and the moments at which they took images.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rig {
-    /// Number of the rig in files that number them; no two are equal.
+    /// Unique ID of the rig, in formats with IDs.
     pub id: u32,
     /// Its cameras. The frame of the rig is that of the first one.
     pub cameras: Vec<RigCamera>,
-    /// Moments in which images were taken.
+    /// Moments at which images were taken.
     pub frames: Vec<RigFrame>,
 }
 
@@ -26,14 +26,14 @@ pub struct Rig {
 pub struct RigCamera {
     /// Index of the camera.
     pub camera: usize,
-    /// `x_in_cam = cam_from_rig * x_in_rig`; the identity of the first camera.
+    /// `x_in_cam = cam_from_rig * x_in_rig`; the identity for the first camera.
     pub cam_from_rig: RigidTransform,
 }
 
-/// A moment in which a rig took images.
+/// A moment at which a rig took images.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigFrame {
-    /// Number of the frame in files that number them; no two are equal.
+    /// Unique ID of the frame, in formats with IDs.
     pub id: u32,
     /// `x_in_rig = rig_from_world * x_in_world`.
     pub rig_from_world: RigidTransform,
@@ -43,8 +43,8 @@ pub struct RigFrame {
 
 impl Model {
     /// # Errors
-    /// [`Error::Malformed`] if an index is wrong, something is there twice, or an image is
-    /// elsewhere than its rig has it.
+    /// [`Error::Malformed`] if an index is wrong, an entry is duplicate, or the pose of an image
+    /// differs from that of its rig.
     pub(super) fn check_rigs(&self) -> Result<()> {
         let (mut rigs, mut cameras) = (BTreeSet::new(), BTreeSet::new());
         let (mut frames, mut images) = (BTreeSet::new(), BTreeSet::new());
@@ -83,8 +83,8 @@ impl Model {
         Ok(())
     }
 
-    /// The rigs, then one of its own for each other camera, with a frame for each
-    /// image that is in none; none at all where each camera moves alone.
+    /// Returns the rigs, then a separate one for each other camera, with a frame for each image
+    /// that is in none. Empty if each camera moves alone.
     pub(super) fn rigs_of_all(&self) -> Vec<Rig> {
         let mut rigs = self.rigs.clone();
         if rigs.iter().all(|rig| rig.cameras.len() < 2) {

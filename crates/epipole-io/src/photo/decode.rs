@@ -1,4 +1,4 @@
-//! Photographs from the bytes of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
+//! Decoding of PNG, JPEG, WebP, TIFF, BMP and PNM files.
 
 use super::exif::Facts;
 use super::format::{Format, bad, check_size, recognize};
@@ -18,8 +18,8 @@ use image::{
 use std::borrow::Cow;
 use std::io::Cursor;
 
-/// Maximum memory for data of a PNG file beside its pixels, bytes. A color profile that unpacks to
-/// more is ignored; larger stored data are an error.
+/// Maximum memory for the metadata of a PNG file, bytes. A color profile that unpacks to more is
+/// ignored; larger stored data are an error.
 pub(super) const MAX_METADATA_BYTES: u64 = 64 << 20;
 
 /// Options of [`decode_gray`] and [`decode_rgb`].
@@ -27,9 +27,9 @@ pub(super) const MAX_METADATA_BYTES: u64 = 64 << 20;
 #[setters(prefix = "with_")]
 #[non_exhaustive]
 pub struct DecodeOptions {
-    /// The largest width × height; a file that promises more is refused before memory is taken.
+    /// Maximum width × height; larger files are refused before memory is allocated.
     pub max_pixels: u64,
-    /// Whether to turn the image upright by its EXIF orientation.
+    /// Whether to rotate the image upright by its EXIF orientation.
     pub apply_orientation: bool,
     /// Sample values that become black and white.
     pub range: PixelRange,
@@ -39,7 +39,8 @@ pub struct DecodeOptions {
 }
 
 impl Default for DecodeOptions {
-    /// At most 64 megapixels, turned upright, samples of more than 8 bits by the range in use.
+    /// At most 64 megapixels, rotated upright, samples of more than 8 bits mapped from the range in
+    /// use.
     fn default() -> Self {
         Self {
             max_pixels: 64_000_000,
@@ -50,38 +51,38 @@ impl Default for DecodeOptions {
     }
 }
 
-/// An image and its file's data about the camera.
+/// An image, with the data of its file about the camera.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decoded<I> {
     /// The pixels.
     pub image: I,
     /// Initial guess of the focal length from the EXIF data, pixels of this image; `None` without
-    /// these data. With the principal point in the middle it gives an initial K.
+    /// these data. With the principal point at the center it gives an initial K.
     pub focal_px: Option<f64>,
     /// Focal length from the EXIF data, millimeters.
     pub focal_mm: Option<f64>,
     /// Position of the camera, if the file has GPS data.
     pub place: Option<Geodetic>,
-    /// Rotation to upright that the file asks for, applied or not.
+    /// Orientation from the file, applied or not.
     pub orientation: Orientation,
-    /// Sample values that became black and white, where they are not those of the format.
+    /// Sample values that became black and white, if they differ from those of the format.
     pub range: Option<[f64; 2]>,
 }
 
-/// The gray image in [0, 1] of a PNG, JPEG, WebP, TIFF, BMP or PNM file.
+/// Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to gray in [0, 1].
 ///
 /// Colors become gray as in [`rgb_to_gray`](epipole::imaging::rgb_to_gray); gray of more than eight
-/// bits keeps its depth; transparency is ignored. Of a TIFF file the first image is read: gray or
+/// bits keeps its depth; transparency is ignored. The first image of a TIFF file is read: gray or
 /// RGB, integers or floats, in any compression but JPEG 2000, WebP and Zstandard.
 ///
 /// # Errors
-/// [`Error::BadImage`] if the bytes are no such file, or a truncated or corrupt one;
-/// [`Error::TooManyPixels`] beyond the limit; [`Error::Invalid`] for an empty range.
+/// [`Error::BadImage`] for other, truncated or corrupt files; [`Error::TooManyPixels`] beyond the
+/// limit; [`Error::Invalid`] for an empty range.
 ///
-/// A JPEG file is corrupt if its data end early, hold codes that its tables do not have, or have
-/// more blocks than the image. There is no checksum: changed data that still decode are another
-/// image. Extra bytes between its parts or at the end do no harm, nor does a missing end-of-image
-/// marker behind the last block. Without Huffman tables it is read by the standard ones.
+/// A JPEG file is corrupt if its data end early, contain codes missing in its tables, or have more
+/// blocks than the image. There is no checksum, so changed data that still decode are not noticed.
+/// Extra bytes between its parts or at the end are harmless, as is a missing end-of-image marker
+/// after the last block. A file without Huffman tables is read with the standard ones.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {
@@ -99,7 +100,7 @@ pub fn decode_gray(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<Gray
     decode(bytes, options, Raster::into_gray)
 }
 
-/// The color image of the same files; gray files give three equal channels.
+/// Decodes the same files to color; gray files give three equal channels.
 ///
 /// # Errors
 /// As [`decode_gray`].
@@ -112,11 +113,10 @@ pub fn decode_rgb(bytes: &[u8], options: &DecodeOptions) -> Result<Decoded<RgbIm
     decode(bytes, options, Raster::into_rgb)
 }
 
-/// Width and height of an image as the sensor gave it, before its orientation is applied, from the
-/// header alone.
+/// Returns width and height of an image in the orientation of the sensor, from the header alone.
 ///
 /// # Errors
-/// As [`decode_gray`], for what the header shows.
+/// As [`decode_gray`], for errors in the header.
 ///
 /// ```
 /// use epipole_io::photo::sensor_size;
@@ -137,7 +137,7 @@ pub fn sensor_size(bytes: &[u8]) -> Result<(u32, u32)> {
 /// An image with the given kind of pixels.
 type Buffer<P> = ImageBuffer<P, Vec<<P as Pixel>::Subpixel>>;
 
-/// * `make`: the image of samples, given the values of black and white
+/// * `make`: creates the image from samples and the values of black and white
 fn decode<P: Pixel + 'static>(
     bytes: &[u8],
     options: &DecodeOptions,
@@ -181,7 +181,7 @@ fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
             return Ok(File {
                 raster,
                 orientation,
-                // EXIF data are TIFF themselves.
+                // EXIF data have the format of TIFF.
                 facts: Facts::read(bytes),
             });
         }
@@ -198,7 +198,7 @@ fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
     let mut decoder = reader.into_decoder().map_err(|error| said(&error))?;
     let (width, height) = decoder.dimensions();
     check_size(width, height, max_pixels)?;
-    // Unreadable metadata are treated as absent: the image matters more.
+    // Unreadable metadata are treated as absent, because the image is still useful.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let exif = decoder.exif_metadata().unwrap_or(None);
     let image = DynamicImage::from_decoder(decoder).map_err(|error| said(&error))?;
@@ -216,18 +216,20 @@ fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
     })
 }
 
-/// Limits of the decoder: none for pixels, which are checked against the caller's own.
+/// Returns the limits of the decoder: none for pixels, which are checked against the caller's
+/// limit.
 pub(super) fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_METADATA_BYTES);
     limits
 }
 
-/// Error of a decoder in words.
+/// Describes the error of a decoder.
 fn said(error: &image::ImageError) -> Error {
     use image::ImageError::{Limits, Unsupported};
     match error {
-        // A size beyond memory, before the caller's limit can be checked, or MAX_METADATA_BYTES.
+        // A size beyond memory, detected before the caller's limit is checked, or
+        // MAX_METADATA_BYTES.
         Limits(_) => bad("its pixels or the data beside them need too much memory"),
         Unsupported(what) => bad(format!("{what}; convert it to PNG")),
         other => bad(other.to_string()),

@@ -10,13 +10,13 @@ const FULL_FRAME_DIAGONAL_SQ: f64 = 36.0 * 36.0 + 24.0 * 24.0;
 pub(crate) struct Facts(Exif);
 
 impl Facts {
-    /// `None` if the block cannot be read.
+    /// Reads a block; `None` if it is malformed.
     pub(crate) fn read(data: &[u8]) -> Option<Self> {
         let data = data.strip_prefix(b"Exif\0\0").unwrap_or(data);
         Reader::new().read_raw(data.to_vec()).ok().map(Self)
     }
 
-    /// Up to three numbers of a field.
+    /// Returns up to three numbers of a field.
     fn numbers(&self, tag: Tag) -> Option<[f64; 3]> {
         let value = &self.0.get_field(tag, In::PRIMARY)?.value;
         let number = |index: usize| match value {
@@ -34,20 +34,20 @@ impl Facts {
         self.numbers(tag).map(|[first, ..]| first)
     }
 
-    /// Focal length in millimeters.
+    /// Returns the focal length in millimeters.
     pub(crate) fn focal_length_mm(&self) -> Option<f64> {
         self.number(Tag::FocalLength)
             .filter(|mm| mm.is_finite() && *mm > 0.0)
     }
 
-    /// Focal length in pixels of a `width × height` image.
+    /// Returns the focal length in pixels of a `width × height` image.
     ///
-    /// * `sensor_width_mm`: length of the sensor's longer side, if it is known: with the focal
-    ///   length in millimeters it comes before all else
+    /// * `sensor_width_mm`: longer side of the sensor, if known; with the focal length in
+    ///   millimeters it takes precedence
     ///
     /// The 35 mm equivalent `f₃₅` compares diagonals, `f = f₃₅ √(w² + h²) / √(36² + 24²)`; without
     /// it, the focal length in millimeters times the resolution of the focal plane. `None` if
-    /// neither is there or they make no sense.
+    /// neither is present and plausible.
     ///
     /// Source: CIPA DC-008 (EXIF 2.32), §4.6.5; CIPA DCG-001 for the equivalence of diagonals.
     pub(crate) fn focal_length_px(
@@ -71,8 +71,7 @@ impl Facts {
                 5 => 0.001,
                 _ => return None,
             };
-            // The resolution is that of the sensor; an image downscaled later differs from it in
-            // width.
+            // The resolution is that of the sensor; an image downscaled later has another width.
             let scale = self
                 .number(Tag::PixelXDimension)
                 .filter(|&x| x > 0.0)
@@ -90,8 +89,8 @@ impl Facts {
             .or_else(|| measured().filter(plausible))
     }
 
-    /// GPS position, at sea level if there is no height. `None` without latitude and longitude, or
-    /// if they are invalid.
+    /// Returns the GPS position, at sea level if there is no height. `None` without valid latitude
+    /// and longitude.
     ///
     /// Source: CIPA DC-008 (EXIF 2.32), §4.6.6.
     pub(crate) fn place(&self) -> Option<Geodetic> {
@@ -118,7 +117,7 @@ impl Facts {
 mod tests {
     use super::*;
 
-    /// One directory of EXIF with the focal length 50/10 mm and 1000 pixels a centimeter.
+    /// Returns one EXIF directory with the focal length 50/10 mm and 1000 pixels per centimeter.
     fn block(unit: u16, numerator: u32) -> Vec<u8> {
         let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
         data.extend(1u16.to_le_bytes());
@@ -146,8 +145,8 @@ mod tests {
         Facts::read(data)?.focal_length_px(width, height, None)
     }
 
-    /// A directory with a place: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a height of
-    /// 20.5 m.
+    /// Returns a directory with a position: 33° 51′ 36″ and 151° 12.6′, each with its letter, and a
+    /// height of 20.5 m.
     fn block_of_place(letters: [u8; 2], below: u8, degrees: u32) -> Vec<u8> {
         let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
         data.extend(1u16.to_le_bytes());
@@ -199,7 +198,7 @@ mod tests {
             .unwrap();
         assert!(place.latitude_deg > 0.0 && place.longitude_deg < 0.0);
         assert_eq!(place.height_m, -20.5);
-        // No place has 99 degrees of latitude, and many photographs have none at all.
+        // A latitude of 99° is invalid, and many photos have no position.
         assert_eq!(
             Facts::read(&block_of_place(*b"NW", 1, 99)).unwrap().place(),
             None
@@ -216,7 +215,7 @@ mod tests {
 
     #[test]
     fn a_sensor_width_turns_millimeters_into_pixels() {
-        // 5 mm on a sensor of 8 mm, whatever the resolution of the focal plane says.
+        // 5 mm on a sensor of 8 mm, regardless of the resolution of the focal plane.
         let facts = Facts::read(&block(3, 50)).unwrap();
         assert_eq!(facts.focal_length_mm(), Some(5.0));
         for (width, height) in [(640, 480), (480, 640)] {

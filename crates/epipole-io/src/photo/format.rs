@@ -3,7 +3,7 @@
 use crate::Error;
 use image::ImageFormat;
 
-/// A format that is read.
+/// A supported format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     Jpeg,
@@ -13,7 +13,7 @@ pub(super) enum Format {
     Other(ImageFormat),
 }
 
-/// Formats that are not read: their name, and the offset and bytes that tell them.
+/// Unsupported formats: name, offset and bytes of the signature.
 const UNSUPPORTED: [(&str, usize, &[u8]); 36] = [
     ("HEIC", 4, b"ftyphei"),
     ("HEIC", 4, b"ftyphev"),
@@ -57,11 +57,11 @@ const VIDEO: &str = "video";
 const POINTER: &str = "pointer (Git LFS)";
 const PAGE: &str = "web page (HTML)";
 
-/// Formats of images in words.
+/// Supported formats, in words.
 const READ: &str = "PNG, JPEG, WebP, TIFF, BMP or PNM";
 
 /// # Errors
-/// [`Error::BadImage`] with the name of another format, where it is known.
+/// [`Error::BadImage`] with the name of the other format, if it is known.
 pub(super) fn recognize(bytes: &[u8]) -> Result<Format, Error> {
     if bytes.is_empty() {
         return Err(bad("the file is empty"));
@@ -78,14 +78,14 @@ pub(super) fn recognize(bytes: &[u8]) -> Result<Format, Error> {
         Ok(format @ (ImageFormat::Png | ImageFormat::WebP | ImageFormat::Bmp)) => {
             Ok(Format::Other(format))
         }
-        // BigTIFF, for files beyond 4 GB, has a number of its own.
+        // BigTIFF, for files beyond 4 GB, has another version number.
         Ok(ImageFormat::Tiff) => Ok(Format::Tiff),
         _ if starts(0, b"II\x2B\0") || starts(0, b"MM\0\x2B") => Ok(Format::Tiff),
         _ => Err(bad(format!("it is no {READ} file"))),
     }
 }
 
-/// Error for a file of another format.
+/// Returns the error for a file of another format.
 pub(super) fn unsupported(name: &str) -> Error {
     let advice = match name {
         VIDEO => "take single frames out of it, as JPEG or PNG files",
@@ -109,7 +109,7 @@ pub(super) fn bad(why: impl Into<String>) -> Error {
 }
 
 /// # Errors
-/// For no pixels, and for more than the limit.
+/// Without pixels, and beyond the limit.
 pub(super) fn check_size(width: u32, height: u32, max_pixels: u64) -> Result<(), Error> {
     match u64::from(width) * u64::from(height) {
         0 => Err(bad("it has no pixels")),

@@ -1,15 +1,13 @@
-//! Whether the data of a JPEG file make a whole picture.
+//! Check that the data of a JPEG file are a complete image.
 //!
-//! Decoders for browsers show what they can of a damaged file, and fill the rest with something;
-//! geometry must not be fooled by it. So the codes of the data are passed over once more, without
-//! making pixels of them: there have to be as many blocks as the picture has, of codes that the
-//! file's own tables have. What the passing over knows nothing of (arithmetic coding, lossless
-//! files, tables that are missing) is left to the decoder to judge.
+//! Decoders fill the missing parts of a damaged file with arbitrary values, which must not reach
+//! geometry. This check therefore parses the Huffman codes without decoding pixels: the number of
+//! blocks must be that of the image, and all codes must be in the file's tables. Other files
+//! (arithmetic coding, lossless, missing tables) are left to the decoder.
 //!
-//! Damage that leaves as many codes that make sense is not noticed. In fourteen encodings of a
-//! photograph, a part that was cut out or overwritten (500 bytes) was found in 99 of 100 cases, a
-//! single changed byte in every other one; `libjpeg`, which goes on with a warning, notices as
-//! many.
+//! Damage that leaves equally many valid codes is not noticed. In fourteen encodings of a photo,
+//! 500 bytes cut out or overwritten were noticed in 99 of 100 cases, a single changed byte in every
+//! second case; `libjpeg`, which continues with a warning, notices equally many.
 
 mod bits;
 mod blocks;

@@ -1,5 +1,4 @@
-//! Photographs as a reconstruction wants them: upright, without the distortion of a lens that is
-//! known, not too large.
+//! Photos prepared for reconstruction: upright, undistorted if the lens is known, downscaled.
 
 use super::{DecodeOptions, PixelRange, decode_rgb};
 use crate::Result;
@@ -25,8 +24,8 @@ pub struct PrepareOptions<'a> {
     /// Length of the longer side of the camera's sensor, millimeters, for files that have the focal
     /// length in millimeters only.
     pub sensor_width_mm: Option<f64>,
-    /// Undistortion for images of one camera: those with its size before they are turned upright,
-    /// or else after.
+    /// Undistortion for images of one camera, with its size before or else after rotation to
+    /// upright.
     pub undistortion: Option<&'a Undistortion>,
 }
 
@@ -46,12 +45,12 @@ impl Default for PrepareOptions<'_> {
     }
 }
 
-/// A photograph that is ready.
+/// A prepared photo.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreparedPhoto {
     /// The pixels, upright.
     pub image: RgbImage,
-    /// A first guess of the focal length from the EXIF data, pixels of `image`.
+    /// Initial guess of the focal length from the EXIF data, pixels of `image`.
     pub focal_px: Option<f64>,
     /// Focal length from the EXIF data, millimeters.
     pub focal_mm: Option<f64>,
@@ -59,11 +58,11 @@ pub struct PreparedPhoto {
     pub place: Option<Geodetic>,
     /// K, pixels of `image`, if the distortion of a known lens was removed.
     pub intrinsics: Option<Intrinsics>,
-    /// Width and height before it was reduced, upright.
+    /// Upright width and height before downscaling.
     pub full_size: (u32, u32),
-    /// Width and height as the sensor gave it, before it was turned upright.
+    /// Width and height in the orientation of the sensor, before downscaling.
     pub sensor_size: (u32, u32),
-    /// Number of clockwise quarter turns that made it upright; `None` if it was mirrored.
+    /// Number of clockwise quarter turns to upright; `None` if it was mirrored.
     pub quarters: Option<u8>,
     /// Sample values that became black and white, where they are not those of the format.
     pub range: Option<[f64; 2]>,
@@ -73,16 +72,16 @@ pub struct PreparedPhoto {
 }
 
 impl PreparedPhoto {
-    /// A focal length of the photograph before it was reduced, in its pixels now.
+    /// Converts a focal length to pixels of the downscaled photo.
     pub fn reduced_focal_px(&self, focal_px: f64) -> f64 {
         focal_px * (f64::from(self.image.width()) / f64::from(self.full_size.0.max(1)))
     }
 
-    /// The camera of the prepared image, rotated and downscaled with it; `None` for another camera:
-    /// neither the sensor nor the upright photograph has its size, or the photograph was mirrored.
-    /// For photographs that keep their distortion.
+    /// Returns the camera of the prepared image, rotated and downscaled with it. `None` if neither
+    /// the sensor nor the upright photo has the size of the camera, or if the photo was mirrored.
+    /// For photos that keep their distortion.
     ///
-    /// * `camera`: of the sensor's orientation and size, or of those of the photograph upright
+    /// * `camera`: camera with the orientation and size of the sensor, or of the upright photo
     ///
     /// # Errors
     /// As [`Intrinsics::resized`].
@@ -110,12 +109,12 @@ impl PreparedPhoto {
 }
 
 /// Decodes a file as [`decode_rgb`], undistorts it if it has the size of the undistortion's camera,
-/// turns it upright, and downscales it.
+/// rotates it upright, and downscales it.
 ///
-/// The lens is fixed to the sensor: a camera calibrated with photographs in the sensor's
-/// orientation also serves for photographs taken upright, if their files have the orientation. It
-/// does not serve for a mirrored photograph. A camera that has the size of the upright photograph
-/// alone was calibrated with photographs that were turned, as OpenCV reads them.
+/// The lens is fixed to the sensor, so a camera calibrated in the sensor's orientation also applies
+/// to photos taken upright, if their files have the orientation. It does not apply to a mirrored
+/// photo. A camera that has only the size of the upright photo was calibrated with rotated photos,
+/// as OpenCV reads them.
 ///
 /// # Errors
 /// As [`decode_rgb`].
@@ -186,7 +185,7 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
     Ok(photo)
 }
 
-/// Number of clockwise quarter turns that make a photograph upright; `None` for a mirrored one.
+/// Returns the number of clockwise quarter turns to upright; `None` for a mirrored photo.
 fn quarters(orientation: Orientation) -> Option<u8> {
     match orientation {
         Orientation::NoTransforms => Some(0),
@@ -204,7 +203,7 @@ mod tests {
     use epipole::camera::{Lens, LensKind};
     use image::{ExtendedColorType, ImageEncoder, Rgb};
 
-    /// A PNG file with an EXIF orientation.
+    /// Returns a PNG file with an EXIF orientation.
     fn file(image: &RgbImage, orientation: u16) -> Vec<u8> {
         let mut exif = b"II\x2a\0\x08\0\0\0\x01\0".to_vec();
         for part in [0x0112_u16, 3, 1, 0, orientation, 0, 0, 0] {
@@ -250,7 +249,7 @@ mod tests {
         let (u, v) = (13, 41);
         let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));
         let ray = flat.intrinsics.ray(&place(u, v));
-        // Position and ray of the pixel after the photograph is rotated clockwise.
+        // Position and ray of the pixel after clockwise rotation.
         for (orientation, at, turned) in [
             (6, (59 - v, u), [-ray.y, ray.x]),
             (3, (79 - u, 59 - v), [-ray.x, -ray.y]),
@@ -318,7 +317,7 @@ mod tests {
             undistortion: Some(&flat),
             ..PrepareOptions::default()
         };
-        // Upright pixels without a word of how they came to be so; and a mirrored photograph.
+        // Upright pixels without an orientation, and a mirrored photo.
         let upright = image::imageops::rotate90(&smooth());
         for bytes in [file(&upright, 1), file(&smooth(), 2)] {
             let photo = prepare_photo(&bytes, &options).unwrap();

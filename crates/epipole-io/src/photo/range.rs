@@ -3,21 +3,21 @@
 use crate::Result;
 use epipole::Error;
 
-/// Share of the samples that may lie beyond each end of a robust range.
+/// Fraction of the samples that may be outside each end of a robust range.
 const BEYOND: f64 = 0.001;
-/// A range of all values at most this many times the robust one is taken whole.
+/// Maximum ratio of the full to the robust range at which the full range is used.
 const MAX_STRETCH: f64 = 2.0;
 
 /// Sample values of a file that become black and white.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[non_exhaustive]
 pub enum PixelRange {
-    /// 0 to 255 in 8 bits; otherwise the values in use, since few sensors use all values that a
-    /// file could have. Values beyond the percentiles 0.1 and 99.9 are cut off where they would
-    /// more than double the range, as hot pixels do.
+    /// 0 to 255 in 8 bits; otherwise the values in use, because few sensors use the full range of a
+    /// file. Values beyond the percentiles 0.1 and 99.9 are cut off if they would more than double
+    /// the range, as hot pixels do.
     #[default]
     Auto,
-    /// All values that a file's integers can have; 0 to 1 for floats.
+    /// Full range of a file's integers; 0 to 1 for floats.
     Full,
     /// From the first value to the second, in the file's own numbers, 8 bits included.
     Between(f64, f64),
@@ -45,7 +45,7 @@ impl PixelRange {
     }
 }
 
-/// The range of values with these ends and percentiles.
+/// Selects the full or the robust range.
 fn chosen([least, most]: [f64; 2], [low, high]: [f64; 2]) -> [f64; 2] {
     match most - least > MAX_STRETCH * (high - low) && high > low {
         true => [low, high],
@@ -53,17 +53,17 @@ fn chosen([least, most]: [f64; 2], [low, high]: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Number of samples beyond each percentile.
+/// Returns the number of samples beyond each percentile.
 fn beyond(count: u64) -> u64 {
     (count as f64 * BEYOND) as u64
 }
 
-/// The range in use; `None` if all values are the same.
+/// Returns the range in use; `None` if all values are equal.
 pub(super) fn of_words(samples: impl Iterator<Item = u16>) -> Option<[f64; 2]> {
     let mut histogram = vec![0_u64; 1 << 16];
     samples.for_each(|sample| histogram[usize::from(sample)] += 1);
     let each = beyond(histogram.iter().sum());
-    // The first value with more than so many samples up to it.
+    // First value with a cumulative number of samples above `count`.
     fn first_above(counts: impl Iterator<Item = (usize, u64)>, count: u64) -> Option<f64> {
         let mut sum = 0;
         let reaches = |(value, here): (usize, u64)| {
@@ -78,7 +78,7 @@ pub(super) fn of_words(samples: impl Iterator<Item = u16>) -> Option<[f64; 2]> {
     (low < high).then_some([low, high])
 }
 
-/// The same for floats, of which those that are not finite do not count.
+/// Returns the range in use of the finite floats.
 pub(super) fn of_floats(samples: impl Iterator<Item = f32>) -> Option<[f64; 2]> {
     let mut finite: Vec<f32> = samples.filter(|sample| sample.is_finite()).collect();
     let last = finite.len().checked_sub(1)?;
@@ -88,13 +88,13 @@ pub(super) fn of_floats(samples: impl Iterator<Item = f32>) -> Option<[f64; 2]> 
     (low < high).then_some([low, high])
 }
 
-/// Position of a value in a range, 0 to 1; 0 for NaN.
+/// Maps a range to 0 to 1, and NaN to 0.
 pub(super) fn to_unit(value: f64, [low, high]: [f64; 2]) -> f64 {
     let share = (value - low) / (high - low);
     if share > 0.0 { share.min(1.0) } else { 0.0 }
 }
 
-/// The same in 8 bits.
+/// Maps a range to 8 bits.
 pub(super) fn to_byte(value: f64, range: [f64; 2]) -> u8 {
     (255.0 * to_unit(value, range) + 0.5) as u8
 }
@@ -108,7 +108,7 @@ mod tests {
         let ramp = || (0..10_000).map(|k| 5000 + k / 100);
         assert_eq!(of_words(ramp()), Some([5000.0, 5099.0]));
         assert_eq!(of_floats(ramp().map(f32::from)), Some([5000.0, 5099.0]));
-        // A bright spot that is not far beyond counts; hot and dead pixels do not.
+        // A moderately bright spot counts; hot and dead pixels do not.
         let bright = ramp().chain([5120]);
         assert_eq!(of_words(bright), Some([5000.0, 5120.0]));
         let hot = || ramp().chain([65535; 5]).chain([0; 5]);
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(of_words([7; 100].into_iter()), None);
         assert_eq!(of_floats([7.0; 100].into_iter()), None);
         assert_eq!(of_floats([f32::NAN; 100].into_iter()), None);
-        // Two values, one of them rare: its pixels are all that there is to see.
+        // Two values, one of them rare: the range must keep both.
         let mask = [0; 5000].into_iter().chain([9]);
         assert_eq!(of_words(mask), Some([0.0, 9.0]));
     }
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!([unit(150.0), unit(99.0), unit(1e9)], [0.25, 0.0, 1.0]);
         assert_eq!(unit(f64::NAN), 0.0);
         assert_eq!(to_byte(300.0, range), 255);
-        // Words in their full range as everywhere: the nearest of v / 257.
+        // Words in their full range: v / 257, rounded.
         for v in [0_u16, 128, 129, 385, 386, 40_000, 65_406, 65_407, 65_535] {
             let nearest = ((u32::from(v) + 128) / 257) as u8;
             assert_eq!(to_byte(f64::from(v), [0.0, 65_535.0]), nearest, "{v}");

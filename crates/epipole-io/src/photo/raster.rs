@@ -1,15 +1,15 @@
-//! Samples of any depth, and the images made of them.
+//! Samples of any depth, and their conversion to images.
 
 use super::range::{PixelRange, of_floats, of_words, to_byte, to_unit};
 use crate::{Error, Result};
 use epipole::imaging::{GrayImage32, rgb_to_gray};
 use image::{DynamicImage, RgbImage};
 
-/// Pixels as a file has them, row by row.
+/// Pixels of a file, row by row.
 pub(super) struct Raster {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Samples of a pixel: gray; gray and alpha; RGB; RGB and alpha.
+    /// Number of samples per pixel: gray; gray and alpha; RGB; RGB and alpha.
     pub(super) channels: usize,
     pub(super) samples: Samples,
     /// Sample values of black and white by the format.
@@ -22,14 +22,14 @@ pub(super) enum Samples {
     Floats(Vec<f32>),
 }
 
-/// An image with a value for each pixel.
+/// Creates an image with a value for each pixel.
 fn gray(width: u32, height: u32, values: Vec<f32>) -> GrayImage32 {
     GrayImage32::from_raw(width, height, values).expect("every pixel has a sample")
 }
 
 impl Raster {
     /// # Errors
-    /// [`Error::BadImage`] for a kind of pixel that no format here has.
+    /// [`Error::BadImage`] for an unsupported pixel type.
     pub(super) fn from_dynamic(image: DynamicImage) -> Result<Self> {
         use DynamicImage as D;
         use Samples::{Bytes, Floats, Words};
@@ -61,7 +61,7 @@ impl Raster {
         })
     }
 
-    /// Whether there are as many samples as pixels need.
+    /// Returns whether all pixels have their samples.
     pub(super) fn is_whole(&self) -> bool {
         let num_samples = match &self.samples {
             Samples::Bytes(bytes) => bytes.len(),
@@ -71,7 +71,7 @@ impl Raster {
         num_samples == self.width as usize * self.height as usize * self.channels
     }
 
-    /// Undoes the scaling to all values of 16 bits.
+    /// Undoes the scaling to the full range of 16 bits.
     ///
     /// * `white`: the value of white in the file
     pub(super) fn unscale(&mut self, white: u16) {
@@ -84,19 +84,19 @@ impl Raster {
         }
     }
 
-    /// Number of samples of a pixel that are seen: without alpha.
+    /// Returns the number of samples per pixel without alpha.
     fn num_seen(&self) -> usize {
         if self.channels < 3 { 1 } else { 3 }
     }
 
-    /// The samples that are seen.
+    /// Returns the samples without alpha.
     fn seen<'a, T: Copy>(&self, samples: &'a [T]) -> impl Iterator<Item = T> + use<'a, T> {
         let num_seen = self.num_seen();
         let pixels = samples.chunks_exact(self.channels);
         pixels.flat_map(move |pixel| pixel[..num_seen].iter().copied())
     }
 
-    /// Values of black and white where they are not those of the format.
+    /// Returns the values of black and white, if they differ from those of the format.
     pub(super) fn mapped(&self, range: PixelRange) -> Option<[f64; 2]> {
         match (range, &self.samples) {
             (PixelRange::Between(low, high), _) => Some([low, high]),
@@ -156,7 +156,7 @@ impl Raster {
     }
 }
 
-/// The bytes of all integers.
+/// Returns the lookup table of all integers.
 fn table<T: Into<f64>>(values: impl Iterator<Item = T>, range: [f64; 2]) -> Vec<u8> {
     values.map(|value| to_byte(value.into(), range)).collect()
 }

@@ -1,4 +1,4 @@
-//! Files of all formats, made here or by others.
+//! Tests with files of all formats, generated here or by other programs.
 
 use super::decode::{MAX_METADATA_BYTES, limits};
 use super::*;
@@ -22,7 +22,7 @@ fn sample() -> GrayImage {
     GrayImage::from_fn(40, 30, |u, v| Luma([((u * 7 + v * 13) % 256) as u8]))
 }
 
-/// A TIFF structure with an orientation and a 35 mm equivalent focal length.
+/// Returns a TIFF structure with an orientation and a 35 mm equivalent focal length.
 fn exif(orientation: u16, focal_35mm: u16) -> Vec<u8> {
     let mut data = b"II\x2a\0\x08\0\0\0".to_vec();
     data.extend(2u16.to_le_bytes());
@@ -167,7 +167,7 @@ fn truncated_and_corrupt_files_are_errors() {
                 "{keep}: {result:?}"
             );
         }
-        // A flipped byte may pass as another image, but never panics.
+        // A flipped byte may decode to another image, but never panics.
         for k in 0..bytes.len() {
             let mut corrupt = bytes.clone();
             corrupt[k] ^= 0x55;
@@ -244,7 +244,7 @@ fn from_hex(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(digit).collect()
 }
 
-/// Red, green and blue of the same pixels.
+/// Returns red, green and blue of the same pixels.
 fn expected(u: u32, v: u32) -> [u8; 3] {
     [58, 29, 0].map(|more| (7 * u + 13 * v) as u8 + more)
 }
@@ -253,7 +253,7 @@ fn expected(u: u32, v: u32) -> [u8; 3] {
 fn tiff_bmp_and_pnm_files_are_read() {
     use written_by_opencv as files;
     let between = |low, high| DecodeOptions::default().with_range(PixelRange::Between(low, high));
-    // Values of 16 bits and floats come back as those of 8 bits in the range that 255 of them have.
+    // In a range that corresponds to 0 to 255, 16-bit and float values equal those of 8 bits.
     for (hex, options) in [
         (files::GRAY_8, DecodeOptions::default()),
         (files::GRAY_16, between(0.0, 25_500.0)),
@@ -324,7 +324,7 @@ fn bits_planes_and_signs_of_tiff_files_are_read() {
     assert_eq!(decoded.orientation, Orientation::Rotate90);
     let expected = 28.0 * (13.0_f64 / 1872.0).sqrt();
     assert!((decoded.focal_px.unwrap() - expected).abs() < 1e-12);
-    // A thumbnail in front of a camera's own data is not the photograph.
+    // A thumbnail before raw data is not the photo.
     let mut file = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut file).unwrap();
     let mut image = encoder.new_image::<colortype::Gray8>(3, 2).unwrap();
@@ -339,7 +339,7 @@ fn bits_planes_and_signs_of_tiff_files_are_read() {
     image.write_data(&[0; 6]).unwrap();
     let told = decode_gray(file.get_ref(), &DecodeOptions::default()).unwrap_err();
     assert!(told.to_string().contains("develop it to TIFF"), "{told}");
-    // One bit a pixel, black and white.
+    // One bit per pixel, black and white.
     let pbm = decode_rgb(b"P1 3 1 1 0 1", &DecodeOptions::default()).unwrap();
     assert_eq!(pbm.image.as_raw(), &[0, 0, 0, 255, 255, 255, 0, 0, 0]);
 }

@@ -1,4 +1,4 @@
-//! TIFF files, of which the first image is read.
+//! TIFF files: the first image.
 
 use super::format::{bad, check_size, unsupported};
 use super::raster::{Raster, Samples};
@@ -10,14 +10,14 @@ use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-/// Version of the DNG format, in camera raw files.
+/// Version of the DNG format, in raw files.
 const DNG_VERSION: Tag = Tag::Unknown(50_706);
-/// The largest list of a file's parts, bytes.
+/// Maximum list of a file's parts, bytes.
 const MAX_LIST_BYTES: usize = 16 << 20;
-/// The largest part that may exceed the image, as a tile of a small image does, bytes.
+/// Maximum part that may exceed the image, as a tile of a small image does, bytes.
 const MAX_TILE_BYTES: usize = 64 << 20;
 
-/// Width and height of the first image.
+/// Returns width and height of the first image.
 ///
 /// # Errors
 /// [`Error::BadImage`] for a damaged file.
@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation
     }
     let layout = decoder.image_buffer_layout().map_err(said)?;
     let mut limits = Limits::default();
-    // The image's own size was checked above.
+    // The size of the image was checked above.
     limits.decoding_buffer_size = layout.complete_len;
     limits.intermediate_buffer_size = layout.complete_len.saturating_add(MAX_TILE_BYTES);
     limits.ifd_value_size = MAX_LIST_BYTES;
@@ -98,7 +98,7 @@ pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation
     Ok((raster, orientation.unwrap_or(Orientation::NoTransforms)))
 }
 
-/// Whether the first image is but the preview of a camera's own data.
+/// Returns whether the first image is only the preview of raw data.
 fn is_raw(decoder: &mut Decoder<Cursor<&[u8]>>) -> bool {
     let has = |decoder: &mut Decoder<_>, tag| matches!(decoder.find_tag(tag), Ok(Some(_)));
     let kind = decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType);
@@ -106,7 +106,7 @@ fn is_raw(decoder: &mut Decoder<Cursor<&[u8]>>) -> bool {
     has(decoder, DNG_VERSION) || is_reduced && has(decoder, Tag::SubIfd)
 }
 
-/// Error of the decoder in words.
+/// Describes the error of the decoder.
 fn said(error: TiffError) -> Error {
     match error {
         TiffError::UnsupportedError(what) => unsupported_kind(&what.to_string()),
@@ -121,7 +121,7 @@ fn unsupported_kind(what: &str) -> Error {
     ))
 }
 
-/// Samples of 1, 2 or 4 bits, in rows of whole bytes, as bytes from 0 to 255.
+/// Unpacks samples of 1, 2 or 4 bits, in rows of whole bytes, to bytes from 0 to 255.
 fn unpacked(rows: &[u8], width: usize, depth: u8) -> Vec<u8> {
     let depth = usize::from(depth);
     let most = (1_u8 << depth) - 1;
@@ -134,14 +134,14 @@ fn unpacked(rows: &[u8], width: usize, depth: u8) -> Vec<u8> {
         .collect()
 }
 
-/// Planes one behind the other, as samples pixel by pixel.
+/// Converts consecutive planes to samples pixel by pixel.
 fn interleaved<T: Copy>(planes: &[T], channels: usize) -> Vec<T> {
     let length = planes.len() / channels;
     let pixel = |at: usize| (0..channels).map(move |plane| planes[plane * length + at]);
     (0..length).flat_map(pixel).collect()
 }
 
-/// The samples, with the values of black and white.
+/// Returns the samples, with the values of black and white.
 fn samples(read: DecodingResult) -> (Samples, [f64; 2]) {
     use Samples::{Bytes, Floats, Words};
     match read {

@@ -24,7 +24,7 @@ pub(super) trait Written<const D: usize>: Sized {
     const NUM_AXES: usize;
     fn read(numbers: &[f64]) -> std::result::Result<Self, &'static str>;
     fn write(&self, numbers: &mut Vec<f64>);
-    /// A prior of a vertex from that of a sensor at an offset from it.
+    /// Converts the prior of a sensor at an offset to a prior of the vertex.
     fn without_offset(
         self,
         information: SMatrix<f64, D, D>,
@@ -32,7 +32,7 @@ pub(super) trait Written<const D: usize>: Sized {
     ) -> (Self, SMatrix<f64, D, D>) {
         (self, information)
     }
-    /// A sighting in the frame of a vertex from that of a sensor at an offset from it, exactly.
+    /// Converts the sighting of a sensor at an offset to the frame of the vertex, exactly.
     fn seen_from_vertex(
         self,
         information: SMatrix<f64, D, D>,
@@ -61,7 +61,7 @@ impl Written<3> for Isometry2<f64> {
     }
 }
 
-/// The rotation of a quaternion of any length but 0.
+/// Returns the rotation of a quaternion of any length but 0.
 fn rotation(
     w: f64,
     x: f64,
@@ -70,7 +70,7 @@ fn rotation(
 ) -> std::result::Result<UnitQuaternion<f64>, &'static str> {
     let mut quaternion = Quaternion::new(w, x, y, z);
     if !quaternion.norm().is_finite() {
-        // Each number is finite, and their squares are not.
+        // The numbers are finite, but their squares overflow.
         quaternion /= quaternion.coords.amax();
     }
     UnitQuaternion::try_new(quaternion, 1e-6).ok_or("the quaternion is zero, so it is no rotation")
@@ -98,7 +98,8 @@ impl Written<6> for Isometry3<f64> {
         let q = &self.rotation;
         numbers.extend([q.i, q.j, q.k, q.w]);
     }
-    /// Exact for a rotated sensor; to first order in the error of the rotation for a shifted one.
+    /// Converts exactly for a rotated sensor, and to first order in the rotation error for a
+    /// shifted one.
     ///
     /// With the error D = Z⁻¹ T O of a sensor at the offset O = (t, R), that of a prior Z O⁻¹ of
     /// the vertex is O D O⁻¹.
@@ -115,7 +116,7 @@ impl Written<6> for Isometry3<f64> {
         let lever = vertex_from_sensor.translation.vector.cross_matrix();
         let mut back = SMatrix::<f64, 6, 6>::zeros();
         back.fixed_view_mut::<3, 3>(0, 0).copy_from(&undo);
-        // Twice, as the error has the sine of half the angle.
+        // The factor 2 is because the error has the sine of half the angle.
         back.fixed_view_mut::<3, 3>(0, 3)
             .copy_from(&(undo * lever * -2.0));
         back.fixed_view_mut::<3, 3>(3, 3).copy_from(&undo);

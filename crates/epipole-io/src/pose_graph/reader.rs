@@ -36,7 +36,7 @@ impl Kind {
             .map(|&(_, kind)| kind)
     }
 
-    /// Counts of ids, numbers of the pose and rows of the information matrix.
+    /// Returns the counts of IDs, numbers of the pose and rows of the information matrix.
     fn counts<T: Written<D>, const D: usize>(self) -> [usize; 3] {
         let of_offset = usize::from(T::HAS_OFFSET);
         match self {
@@ -50,7 +50,7 @@ impl Kind {
     }
 }
 
-/// A measurement whose vertices may follow.
+/// A measurement whose vertices may follow in the file.
 struct Measurement<T, const D: usize> {
     line: usize,
     kind: Kind,
@@ -59,18 +59,18 @@ struct Measurement<T, const D: usize> {
     information: SMatrix<f64, D, D>,
 }
 
-/// Lines that concern poses of every kind.
+/// Lines that apply to poses of every kind.
 #[derive(Default)]
 pub(super) struct Shared {
     /// Line and vertex of each `FIX`.
     pub(super) fixed: Vec<(usize, u64)>,
     /// `PARAMS_SE3OFFSET`: `vertex_from_sensor`.
     pub(super) offsets: BTreeMap<u64, Isometry3<f64>>,
-    /// Landmarks that are not read.
+    /// IDs of unsupported landmarks.
     pub(super) landmarks: BTreeSet<u64>,
 }
 
-/// The lines of one kind of poses, read into a graph.
+/// Reader of the lines of one kind of poses into a graph.
 pub(super) struct Reader<T, const D: usize> {
     graph: Graph<T, D>,
     index: BTreeMap<u64, usize>,
@@ -86,7 +86,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
         }
     }
 
-    /// Reads a vertex or a measurement; false if the tag is another kind's.
+    /// Reads a vertex or a measurement; false if the tag belongs to another kind.
     pub(super) fn accept(&mut self, line: usize, tag: &str, words: &[&str]) -> Result<bool> {
         let Some(kind) = Kind::of::<T, D>(tag) else {
             return Ok(false);
@@ -184,7 +184,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
                 });
                 continue;
             }
-            // A position is that of the vertex, whatever the offset: so g2o has it.
+            // As in g2o, a position prior is that of the vertex, regardless of the offset.
             let (world_from_vertex, information) = if T::HAS_OFFSET && kind == Kind::Prior {
                 let (pose, information) = pose.without_offset(information, offset(line, ids[1])?);
                 check_finite(line, &pose, &information)?;
@@ -212,7 +212,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
 }
 
 /// # Errors
-/// [`Error::Malformed`] where finite numbers gave infinite ones.
+/// [`Error::Malformed`] if finite numbers overflowed.
 fn check_finite<T: Written<D>, const D: usize>(
     line: usize,
     pose: &T,
@@ -229,7 +229,7 @@ fn check_finite<T: Written<D>, const D: usize>(
     }
 }
 
-/// Ids, then numbers, all finite, and nothing else.
+/// Reads IDs, then finite numbers, and nothing else.
 pub(super) fn parse(
     line: usize,
     tag: &str,
@@ -259,7 +259,7 @@ pub(super) fn parse_id(line: usize, word: &str) -> Result<u64> {
         .map_err(|_| Error::at(line, format!("“{word}” is not the number of a vertex")))
 }
 
-/// A matrix from its upper triangle, row by row, in the first `rank` rows and columns.
+/// Returns a matrix from the upper triangle of its first `rank` rows and columns, row by row.
 fn symmetric<const D: usize>(upper: &[f64], rank: usize) -> SMatrix<f64, D, D> {
     let mut matrix = SMatrix::zeros();
     let mut upper = upper.iter();
@@ -273,7 +273,7 @@ fn symmetric<const D: usize>(upper: &[f64], rank: usize) -> SMatrix<f64, D, D> {
     matrix
 }
 
-/// Whether all eigenvalues are at least about zero.
+/// Returns whether all eigenvalues are non-negative up to rounding.
 fn is_positive_semidefinite<const D: usize>(matrix: &SMatrix<f64, D, D>) -> bool {
     let largest = (0..D).map(|i| matrix[(i, i)]).fold(0.0, f64::max);
     let mut shifted = *matrix;

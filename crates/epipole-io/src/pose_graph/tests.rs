@@ -139,7 +139,7 @@ fn malformed_texts_name_the_line() {
     ));
 }
 
-/// The numbers of a pose, then an identity as upper triangle.
+/// Returns the numbers of a pose, then an identity as upper triangle.
 fn pose_words(pose: &Isometry3<f64>) -> String {
     let (t, q) = (pose.translation.vector, pose.rotation);
     format!("{} {} {} {} {} {} {}", t.x, t.y, t.z, q.i, q.j, q.k, q.w)
@@ -167,7 +167,7 @@ fn a_prior_is_that_of_a_sensor_at_its_offset() {
         (pose([0.0; 3], [0.7, 0.1, -1.1]), 1e-9),
         (pose([0.5, -0.3, 0.8], [0.7, 0.1, -1.1]), 2e-3),
     ] {
-        // The error as g2o defines it: of the sensor in the frame where it was measured.
+        // The error is defined as in g2o: of the sensor, in the measured frame.
         let error = pose([2e-3, -1e-3, 3e-3], [1e-3, 4e-3, -2e-3]);
         let measured = vertex * offset * error.inverse();
         let terms = <Isometry3<f64> as GraphPose<6>>::error(
@@ -196,7 +196,7 @@ fn a_prior_is_that_of_a_sensor_at_its_offset() {
 
 #[test]
 fn positions_and_poses_hold_a_graph_in_the_plane() {
-    // Two poses 1 apart, of which the first is at (5, 5) and looks up.
+    // Two poses 1 apart; the first is at (5, 5) and faces up.
     let text = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 0 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n\
                 EDGE_PRIOR_SE2_XY 0 5 5 4 0 4\nEDGE_PRIOR_SE2 1 5 6 1.5707963267948966 9 0 0 9 0 9\n";
     let mut graph = read_g2o(text).unwrap().graph;
@@ -224,7 +224,7 @@ fn landmarks_are_read_written_and_optimized() {
     let written = write_g2o(&graph);
     assert!(written.starts_with("VERTEX_XY 2 4 4\n"), "{written}");
     assert_eq!(read_g2o(&written).unwrap().graph, graph);
-    // Both poses see it 1 nearer than it is.
+    // Both poses measure it 1 too near.
     assert_eq!(graph.chi2(), 2.0 + 1.0);
     graph
         .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
@@ -252,7 +252,7 @@ fn landmarks_are_read_written_and_optimized() {
     }
 }
 
-/// The error of g2o is that of the sensor: (T O)⁻¹ p − z, whatever the offset.
+/// The error of g2o is that of the sensor, (T O)⁻¹ p − z, for any offset.
 #[test]
 fn sightings_of_a_sensor_are_those_of_its_pose() {
     let text = "PARAMS_SE3OFFSET 3 0.5 -1 2 0.5 0.5 0.5 0.5\nVERTEX_SE3:QUAT 0 1 2 3 0 0 0.6 0.8\n\

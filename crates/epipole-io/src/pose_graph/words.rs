@@ -1,6 +1,6 @@
 //! Sentences on lines that are not read.
 
-/// Reason why a word is no number.
+/// Returns the reason why a word is not a number.
 pub(super) fn no_number(word: &str) -> String {
     let has_point = word.replacen(',', ".", 1).parse::<f64>();
     match word.contains(',') && has_point.is_ok_and(f64::is_finite) {
@@ -9,7 +9,7 @@ pub(super) fn no_number(word: &str) -> String {
     }
 }
 
-/// Whether a line is of a landmark or of a measurement that is not read.
+/// Returns whether a line is an unsupported landmark or measurement.
 pub(super) fn is_of_landmark(tag: &str) -> bool {
     const PARTS: [&str; 8] = [
         "XY",
@@ -24,7 +24,7 @@ pub(super) fn is_of_landmark(tag: &str) -> bool {
     PARTS.iter().any(|part| tag.contains(part))
 }
 
-/// Reason why a tag is not read.
+/// Returns the reason why a tag is not supported.
 pub(super) fn unknown(tag: &str) -> String {
     if tag.contains("PRIOR") {
         return format!(
@@ -40,7 +40,7 @@ pub(super) fn unknown(tag: &str) -> String {
     }
 }
 
-/// Landmarks and measurements that were left out, if any.
+/// Describes landmarks and measurements that were left out, if any.
 pub(super) fn left_out(num_landmarks: usize, num_measurements: usize) -> Option<String> {
     let count = |number: usize, what: &str| match number {
         0 => None,

@@ -1,12 +1,12 @@
-//! Rows of numbers in JSON: lists of lists, as `json.dump(array.tolist(), file)` writes them, or
-//! lists of objects with named numbers.
+//! Rows of numbers in JSON: lists of lists, as from `json.dump(array.tolist(), file)`, or lists of
+//! objects with named numbers.
 
 use serde_json::Value;
 
-/// The rows of a JSON text as lines with semicolons, with a line of names above those of objects;
-/// `None` if it is no list of rows. Lists in a row are flattened.
+/// Converts the rows of a JSON text to lines with semicolons, with a header for objects; `None` if
+/// it is not a list of rows. Lists in a row are flattened.
 ///
-/// * `columns`: numbers of a row
+/// * `columns`: number of values in a row
 pub(super) fn lines(text: &str, columns: usize) -> Option<String> {
     if !text.trim_start().starts_with('[') {
         return None;
@@ -23,7 +23,7 @@ pub(super) fn lines(text: &str, columns: usize) -> Option<String> {
         return Some(joined(&lines));
     }
     let lines: Vec<Vec<String>> = rows.iter().map(flatten).collect::<Option<_>>()?;
-    // One line of text: a row whose parts are in brackets.
+    // One line of text, a row whose parts are in brackets.
     let is_one_row = lines.iter().map(Vec::len).sum::<usize>() == columns;
     (!is_one_row).then(|| joined(&lines))
 }
@@ -33,18 +33,18 @@ fn joined(lines: &[Vec<String>]) -> String {
     lines.join("\n")
 }
 
-/// A number, or "-" for anything else.
+/// Returns the text of a number, or "-" for anything else.
 fn number(value: Option<&Value>) -> String {
     let number = value.and_then(Value::as_f64);
     number.map_or_else(|| "-".to_owned(), |number| number.to_string())
 }
 
-/// A name without the signs that mean something in a table.
+/// Returns a name without the special characters of tables.
 fn word(name: &str) -> String {
     name.replace(|c: char| !c.is_alphanumeric() && c != '_', "_")
 }
 
-/// The numbers of nested lists; `None` for what is no list.
+/// Returns the numbers of nested lists; `None` for other values.
 fn flatten(row: &Value) -> Option<Vec<String>> {
     let parts = row.as_array()?.iter();
     Some(

@@ -2,7 +2,7 @@
 
 use super::words::words;
 
-/// Places of the eight values of a pose in a row.
+/// Indices of the eight values of a pose in a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Columns {
     pub(super) time: usize,
@@ -27,14 +27,14 @@ impl Columns {
         quaternion: [5, 6, 7, 4],
     };
 
-    /// Number of values that a row needs.
+    /// Returns the minimum number of values of a row.
     pub(super) fn width(&self) -> usize {
         let all = self.position.iter().chain(&self.quaternion);
         all.fold(self.time, |most, place| most.max(*place)) + 1
     }
 
-    /// Columns by a line of names, such as `#timestamp [ns], p_RS_R_x [m], …` or
-    /// `num t x y z qx qy qz qw`; `None` if not all eight are named.
+    /// Returns the columns of a header, such as `#timestamp [ns], p_RS_R_x [m], …` or `num t x y z
+    /// qx qy qz qw`; `None` unless all eight are named.
     pub(super) fn of_names(line: &str) -> Option<Self> {
         let line = line.trim().trim_start_matches(['#', '%']).to_lowercase();
         let bare = without_units(&line);
@@ -60,7 +60,7 @@ impl Columns {
     }
 }
 
-/// A line without what is in brackets.
+/// Removes the parts of a line in brackets.
 fn without_units(line: &str) -> String {
     let mut depth = 0_usize;
     let mut kept = String::new();
@@ -75,7 +75,7 @@ fn without_units(line: &str) -> String {
     kept
 }
 
-/// Whether a part of a name stands for a quaternion or an orientation.
+/// Returns whether a part of a name means a quaternion or an orientation.
 fn is_of_quaternion(part: &str) -> bool {
     part == "q"
         || ["quat", "orient", "rot"]
@@ -83,7 +83,7 @@ fn is_of_quaternion(part: &str) -> bool {
             .any(|start| part.starts_with(start))
 }
 
-/// Whether a name without its axis is that of a pose, not of a velocity or bias.
+/// Returns whether a name without its axis is that of a pose, not of a velocity or bias.
 fn is_of_pose(stem: &str) -> bool {
     let parts = stem.split(['_', '.', '/']);
     let mut parts = parts.filter(|part| !part.is_empty()).peekable();

@@ -1,7 +1,7 @@
 //! Ground truth of EuRoC MAV: CSV of time in nanoseconds, position in meters, quaternion with w
-//! first, and perhaps velocity and biases, which are not read.
+//! first, and optionally velocity and biases, which are not read.
 //!
-//! The poses are of the body, the IMU, in the world; `sensor.yaml` of a camera has `T_BS`.
+//! The poses are those of the body (the IMU) in the world; `sensor.yaml` of a camera has `T_BS`.
 //!
 //! Source: Burri et al. 2016, "The EuRoC micro aerial vehicle datasets", the files of
 //! `state_groundtruth_estimate0`.

@@ -13,7 +13,7 @@ pub enum TrajectoryFormat {
 }
 
 impl TrajectoryFormat {
-    /// Name of the data set that the format comes from.
+    /// Returns the name of the data set of the format.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tum => "TUM",

@@ -1,10 +1,10 @@
-//! Times of the frames of a video, by their names.
+//! Times of video frames, from their names.
 
 use super::stamp::{check_order, decimal, from_nanoseconds};
 
-/// Times of frames, nanoseconds, if the name of each is a number and none is below the one before:
-/// `1305031102.175304.png` (seconds, TUM RGB-D), `1403636579763555584.png` (nanoseconds, EuRoC).
-/// A number is in nanoseconds where seconds were 292 years. Numbers that only count the frames
+/// Returns the times of frames, nanoseconds, if all names are numbers in non-descending order:
+/// `1305031102.175304.png` (seconds, TUM RGB-D), `1403636579763555584.png` (nanoseconds, EuRoC). A
+/// number beyond 292 years as seconds is in nanoseconds. Numbers that only count the frames
 /// (`000012.png`) become seconds.
 ///
 /// * `names`: names of files; folders are ignored

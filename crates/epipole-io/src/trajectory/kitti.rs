@@ -1,5 +1,5 @@
 //! Trajectories of KITTI's odometry benchmark: lines of twelve numbers, the 3 × 4 matrix
-//! `world_from_cam` row by row, meters. There are no times: a line is a frame.
+//! `world_from_cam` row by row, meters. There are no times; each line is a frame.
 //!
 //! Source: Geiger, Lenz & Urtasun 2012, KITTI, development kit of odometry, `readme.txt`.
 
@@ -12,7 +12,7 @@ use epipole::camera::RigidTransform;
 use nalgebra::{Matrix3, Translation3};
 use std::fmt::Write;
 
-/// Largest entry of RᵀR − I of a rotation matrix that is written with three digits.
+/// Largest entry of RᵀR − I of a rotation matrix written with three digits.
 const FEW_DIGITS: f64 = 1e-2;
 
 pub(super) fn read(text: &str) -> Result<Trajectory> {

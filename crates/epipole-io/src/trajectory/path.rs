@@ -11,6 +11,6 @@ pub struct Trajectory {
     /// `x_in_world = world_from_cam * x_in_cam`. The frame is that of the file: a camera's, or the
     /// body's in the ground truth of EuRoC.
     pub world_from_cam: Vec<RigidTransform>,
-    /// Sentences on what a reader assumed.
+    /// Sentences on assumptions of the reader.
     pub notes: Vec<String>,
 }

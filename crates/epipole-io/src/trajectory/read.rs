@@ -13,14 +13,14 @@ use crate::{Error, Result};
 const W_FIRST: &str = "no line names the columns: quaternions are taken to be w, x, y, z, as EuRoC has them; if w is last, put \
                        the line \"t,x,y,z,qx,qy,qz,qw\" in front";
 
-/// Reads a trajectory, and tells its format by its content.
+/// Reads a trajectory, whose format is recognized by its content.
 ///
-/// Columns are those that a first line or a comment names. Without names, twelve numbers a line are
-/// KITTI's; eight values and more are EuRoC's if commas separate them and times are nanoseconds,
-/// else eight are TUM's: the order of the quaternion follows from that. Eight values between commas
-/// with nanoseconds may be either: [`Trajectory::notes`] say what was taken. Times are nanoseconds
-/// where seconds were 30,000 years, or a day apart. Quaternions are normalized, matrices replaced
-/// by the nearest rotation.
+/// A first line or a comment may name the columns. Without names, twelve numbers per line are
+/// KITTI's; eight or more values are EuRoC's if commas separate them and times are in nanoseconds;
+/// otherwise eight are TUM's. The format determines the order of the quaternion. Eight
+/// comma-separated values with nanoseconds may be either, and [`Trajectory::notes`] have the
+/// choice. Times are in nanoseconds if as seconds they would be beyond 30,000 years, or a day
+/// apart. Quaternions are normalized, matrices replaced by the nearest rotation.
 ///
 /// # Errors
 /// [`Error::Malformed`] for another file, and with the line for wrong numbers, zero quaternions,
@@ -50,7 +50,7 @@ pub fn read_trajectory(bytes: &[u8]) -> Result<(TrajectoryFormat, Trajectory)> {
     }
 }
 
-/// Refuses commas where points belong: `0,5` between blanks or semicolons.
+/// Refuses decimal commas, such as `0,5` between blanks or semicolons.
 fn decimal_commas(text: &str) -> Result<()> {
     for (line, content) in lines(text) {
         let fields = content.split(|c: char| c.is_whitespace() || c == ';');
@@ -69,12 +69,13 @@ fn decimal_commas(text: &str) -> Result<()> {
     Ok(())
 }
 
-/// Whether a file is a trajectory by its first line, right or wrong.
+/// Returns whether the first line of a file is that of a trajectory, even if the rest is malformed.
 pub fn is_trajectory(bytes: &[u8]) -> bool {
     decode(bytes).is_ok_and(|text| recognize(text).is_ok())
 }
 
-/// Format by names of columns, the first row and the times; the layout of rows with times.
+/// Recognizes the format by column names, the first row and the times. Returns the layout of rows
+/// with times.
 fn recognize(text: &str) -> Result<(TrajectoryFormat, Option<Layout>)> {
     let is_header = |content: &str| content.starts_with(|c: char| c.is_alphabetic() || c == '%');
     let num_header = lines(text)
@@ -196,7 +197,7 @@ mod tests {
         assert_eq!(format, TrajectoryFormat::EuRoC);
         let q = path.world_from_cam[0].rotation;
         assert!((q.w - 0.534108).abs() < 1e-6 && (q.j + 0.827383).abs() < 1e-6);
-        // Commas alone do not make it EuRoC's.
+        // Commas alone do not mean EuRoC's format.
         let (format, path) = read("0.5,1,2,3,0,0,0,1\n").unwrap();
         assert_eq!(
             (format, path.world_from_cam[0].rotation.w),
@@ -216,19 +217,19 @@ mod tests {
         assert_eq!(format, TrajectoryFormat::EuRoC);
         assert_eq!(path.stamps_ns, Some(vec![0, 5_000_000]));
         assert!((path.world_from_cam[0].rotation.k - 0.6).abs() < 1e-15);
-        // The same by TUM's order: a line of names decides, and without one a note says so.
+        // The same values in TUM's order: a header decides; without one there is a note.
         assert!(path.notes[0].contains("w, x, y, z"), "{:?}", path.notes);
         let named = "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0.8,0,0,0.6\n5000000,0,0,0,1,0,0,0\n";
         let (format, path) = read(named).unwrap();
         assert_eq!((format, path.notes.len()), (TrajectoryFormat::Tum, 0));
         assert!((path.world_from_cam[0].rotation.i - 0.8).abs() < 1e-15);
-        // As ORB-SLAM3 writes EuRoC's: TUM's columns, nanoseconds.
+        // Output of ORB-SLAM3 for EuRoC: TUM's columns, nanoseconds.
         let slam = "1403636579763555584.000000 1 2 3 0 0 0.6 0.8\n1403636579813555456.000000 1 2 3 0 0 0.6 0.8\n";
         let (format, path) = read(slam).unwrap();
         assert_eq!(format, TrajectoryFormat::Tum);
         assert_eq!(path.stamps_ns.unwrap()[0], 1_403_636_579_763_555_584);
         assert!((path.world_from_cam[0].rotation.w - 0.8).abs() < 1e-15);
-        // A numbered table, w first, velocities behind.
+        // A numbered table with w first and velocities at the end.
         let table = "num,t,x,y,z,qw,qx,qy,qz,vx\n1,0.5,1,2,3,0.8,0,0,0.6,9\n";
         let (_, path) = read(table).unwrap();
         assert_eq!(path.stamps_ns, Some(vec![500_000_000]));

@@ -4,8 +4,7 @@ use crate::{Error, Result};
 
 const NS_PER_S: i64 = 1_000_000_000;
 
-/// Nanoseconds from seconds, exact for decimals with up to nine digits behind the point; further
-/// ones are cut off.
+/// Converts seconds to nanoseconds, exactly for up to nine decimals; further ones are cut off.
 pub(super) fn from_seconds(line: usize, word: &str) -> Result<i64> {
     let malformed = || Error::at(line, format!("\"{word:.40}\" is not a time in seconds"));
     if let Some(stamp) = decimal(word) {
@@ -26,14 +25,14 @@ pub(super) fn from_seconds(line: usize, word: &str) -> Result<i64> {
     Ok(stamp as i64)
 }
 
-/// Whole nanoseconds, which may have a point: `1403636579763555584.000000`.
+/// Reads whole nanoseconds, which may have a point: `1403636579763555584.000000`.
 pub(super) fn from_nanoseconds(line: usize, word: &str) -> Result<i64> {
     let (whole, share) = word.split_once('.').unwrap_or((word, ""));
     let is_whole = share.bytes().all(|b| b == b'0');
     if let (true, Ok(stamp)) = (is_whole, whole.parse()) {
         return Ok(stamp);
     }
-    // `1.403636579763555584e+18`: as many digits as an f64 has.
+    // `1.403636579763555584e+18`: with the precision of an f64.
     let stamp = word
         .parse::<f64>()
         .ok()
@@ -46,7 +45,7 @@ pub(super) fn from_nanoseconds(line: usize, word: &str) -> Result<i64> {
     })
 }
 
-/// A decimal without exponent that fits.
+/// Reads a decimal of seconds without exponent as nanoseconds, if it fits.
 pub(super) fn decimal(word: &str) -> Option<i64> {
     let (sign, digits) = match word.strip_prefix('-') {
         Some(digits) => (-1, digits),
@@ -66,7 +65,7 @@ pub(super) fn decimal(word: &str) -> Option<i64> {
     Some(sign * whole.checked_mul(NS_PER_S)?.checked_add(nanoseconds)?)
 }
 
-/// Seconds with as many decimals as are needed.
+/// Writes seconds with as many decimals as needed.
 pub(super) fn to_seconds(stamp_ns: i64) -> String {
     let sign = if stamp_ns < 0 { "-" } else { "" };
     let all = stamp_ns.unsigned_abs();
@@ -80,7 +79,7 @@ pub(super) fn to_seconds(stamp_ns: i64) -> String {
 }
 
 /// # Errors
-/// [`Error::Malformed`] with the line of a time before the one before it.
+/// [`Error::Malformed`] with the line of a time before the previous one.
 ///
 /// * `stamps`: line and nanoseconds
 pub(super) fn check_order(stamps: &[(usize, i64)]) -> Result<()> {

@@ -1,4 +1,4 @@
-//! Rows of a time, a position and a quaternion: TUM's and EuRoC's files, and tables like them.
+//! Rows of a time, a position and a quaternion: TUM's and EuRoC's files, and similar tables.
 
 use super::columns::Columns;
 use super::path::Trajectory;
@@ -15,8 +15,8 @@ pub(super) enum Unit {
 }
 
 impl Unit {
-    /// Nanoseconds where the last time, taken as seconds, were 30,000 years, or where rows were
-    /// more than a day apart.
+    /// Returns nanoseconds if times as seconds would reach 30,000 years, or rows would be over a
+    /// day apart.
     pub(super) fn of_times(first: f64, last: f64, num_rows: usize) -> Self {
         let step = (last - first).abs() / num_rows.saturating_sub(1).max(1) as f64;
         match last.abs() >= 1e12 || step >= 1e5 {
@@ -37,7 +37,7 @@ pub(super) struct Layout {
     pub(super) max_width: usize,
     /// The columns in words, for errors.
     pub(super) expected: &'static str,
-    /// Sentence on an assumed order.
+    /// Note on an assumed order.
     pub(super) note: Option<&'static str>,
 }
 

@@ -8,8 +8,7 @@ use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 /// Smallest norm of a quaternion that has a direction.
 const MIN_NORM: f64 = 1e-6;
 
-/// Words between semicolons, or else between commas, where a word may be empty, or else between
-/// blanks.
+/// Splits a line at semicolons, or else at commas (words may be empty), or else at blanks.
 pub(super) fn words(line: &str) -> Vec<&str> {
     let separator = if line.contains(';') { ';' } else { ',' };
     let fields = line.split(separator).map(str::trim);
@@ -26,7 +25,7 @@ pub(super) fn words(line: &str) -> Vec<&str> {
     }
 }
 
-/// A pose from a position and a quaternion, which is normalized.
+/// Returns a pose from a position and a quaternion, which is normalized.
 ///
 /// * `position`: x, y, z
 /// * `rotation`: x, y, z, w
@@ -54,7 +53,7 @@ pub(super) fn pose(line: usize, position: &[&str], rotation: [&str; 4]) -> Resul
     ))
 }
 
-/// Texts of numbers, 0 for −0.
+/// Returns texts of numbers, 0 for −0.
 pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> Vec<String> {
     let texts = values.into_iter().map(|value| (value + 0.0).to_string());
     texts.collect()

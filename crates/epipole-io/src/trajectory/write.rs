@@ -5,11 +5,10 @@ use super::path::Trajectory;
 use super::{euroc, kitti, tum};
 use crate::{Error, Result};
 
-/// Writes a trajectory; numbers have all digits. KITTI's format has no times.
+/// Writes a trajectory. Numbers have all digits; KITTI's format has no times.
 ///
 /// # Errors
-/// [`Error::Unsupported`] for TUM and EuRoC if the trajectory has no times, or not one for each
-/// pose.
+/// [`Error::Unsupported`] for TUM and EuRoC unless the trajectory has a time for each pose.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole_io::Error> {

@@ -27,12 +27,12 @@ impl<'a> Field<'a> {
         Self { path, node }
     }
 
-    /// The value of a key; `None` without it and where it is null.
+    /// Returns the value of a key; `None` if it is missing or null.
     pub(crate) fn get(&self, key: &str) -> Option<Self> {
         self.all(key).next()
     }
 
-    /// All values of a key, of which XML may have several.
+    /// Returns all values of a key, of which XML may have several.
     pub(crate) fn all(&self, key: &str) -> impl Iterator<Item = Self> {
         let entries: &'a [(String, Node)] = match &self.node.value {
             Value::Map(entries) => entries,
@@ -44,7 +44,7 @@ impl<'a> Field<'a> {
             .map(|(name, node)| self.child(name, node))
     }
 
-    /// The value of the first key that is there, whatever its case and without `_` and `-`.
+    /// Returns the value of the first key present, ignoring case, `_` and `-`.
     ///
     /// * `keys`: lower case, without `_` and `-`
     pub(crate) fn any(&self, keys: &[&str]) -> Option<Self> {
@@ -59,17 +59,17 @@ impl<'a> Field<'a> {
         })
     }
 
-    /// The value of a key.
+    /// Returns the value of a key.
     ///
     /// # Errors
     /// [`Error::Malformed`] if there is none.
     ///
-    /// * `expected`: what it should be, such as "width in pixels"
+    /// * `expected`: expected value, such as "width in pixels"
     pub(crate) fn need(&self, key: &str, expected: &str) -> Result<Self> {
         self.get(key).ok_or_else(|| self.missing(key, expected))
     }
 
-    /// Error for a key that is missing here.
+    /// Returns the error for a missing key.
     pub(crate) fn missing(&self, key: &str, expected: &str) -> Error {
         let place = match self.path.is_empty() {
             true => key.to_owned(),
@@ -81,7 +81,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Error for a value that is wrong: `what` follows the key, as in "is not a number".
+    /// Returns the error for a wrong value. `what` follows the key, as in "is not a number".
     pub(crate) fn wrong(&self, what: &str) -> Error {
         Error::Malformed {
             line: self.node.line,
@@ -89,12 +89,12 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Error for a value that is valid, but not supported.
+    /// Returns the error for a value that is valid, but not supported.
     pub(crate) fn unsupported(&self, what: &str) -> Error {
         Error::unsupported(format!("{} {what}", self.path))
     }
 
-    /// Keys and values that are not null.
+    /// Returns keys and values, without null values.
     pub(crate) fn entries(&self) -> Vec<(String, Self)> {
         match &self.node.value {
             Value::Map(entries) => (entries.iter())
@@ -105,7 +105,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// Elements of a list; `None` for what is none.
+    /// Returns the elements of a list; `None` for other values.
     pub(crate) fn items(&self) -> Option<Vec<Self>> {
         match &self.node.value {
             Value::List(list) => {
@@ -131,7 +131,8 @@ impl<'a> Field<'a> {
         matches!(self.node.value, Value::Map(_))
     }
 
-    /// A word or string, without the quotes that OpenCV writes into XML; `None` for lists and maps.
+    /// Returns a word or string, without the quotes that OpenCV writes into XML; `None` for lists
+    /// and maps.
     pub(crate) fn text(&self) -> Option<&'a str> {
         match &self.node.value {
             Value::Scalar(text) => Some(text.trim().trim_matches('"')),
@@ -139,7 +140,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// A finite number.
+    /// Returns a finite number.
     pub(crate) fn number(&self) -> Result<f64> {
         let number = self.text().and_then(|text| text.parse::<f64>().ok());
         number
@@ -155,7 +156,7 @@ impl<'a> Field<'a> {
         self.text().ok_or_else(|| self.wrong("is not a text"))
     }
 
-    /// A whole number from 0; some programs write 640.0.
+    /// Returns a whole number from 0; some programs write 640.0.
     pub(crate) fn whole(&self) -> Result<u64> {
         let text = self.text().unwrap_or_default();
         let number = text.parse::<f64>().ok();
@@ -166,14 +167,14 @@ impl<'a> Field<'a> {
             .ok_or_else(|| self.wrong(&format!("is not a whole number{}", self.shown())))
     }
 
-    /// Exactly N numbers.
+    /// Returns exactly N numbers.
     pub(crate) fn array<const N: usize>(&self) -> Result<[f64; N]> {
         let numbers = self.numbers()?;
         let count = numbers.len();
         (numbers.try_into()).map_err(|_| self.wrong(&format!("has {count} numbers, not {N}")))
     }
 
-    /// A whole number of pixels.
+    /// Returns a whole number of pixels.
     pub(crate) fn pixels(&self) -> Result<u32> {
         let number = self.text().and_then(|text| text.parse::<f64>().ok());
         let is_whole =
@@ -184,15 +185,15 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// All numbers of a list, of nested lists row by row, of a matrix of OpenCV (its `data`) or of
-    /// a text with blanks or commas. A number alone is a list of one.
+    /// Returns all numbers of a list, of nested lists row by row, of an OpenCV matrix (its `data`)
+    /// or of a text with blanks or commas. A single number is a list of one.
     pub(crate) fn numbers(&self) -> Result<Vec<f64>> {
         let mut numbers = Vec::new();
         self.collect(self.node, &mut numbers)?;
         Ok(numbers)
     }
 
-    /// * `node`: this one or one inside of it
+    /// * `node`: this node or a descendant
     fn collect(&self, node: &Node, numbers: &mut Vec<f64>) -> Result<()> {
         let not_numbers = || self.wrong("is not a list of numbers");
         match &node.value {
@@ -215,7 +216,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// A short value, to be shown behind a message.
+    /// Returns a short value, to append to a message.
     fn shown(&self) -> String {
         match self.text() {
             Some(text) => format!(": \"{text:.40}\""),

@@ -11,7 +11,7 @@ pub(super) fn parse(text: &str) -> Result<Node> {
     Ok(node(json))
 }
 
-/// The message of an error without its own " at line 3 column 5".
+/// Returns the message of an error without its " at line 3 column 5".
 fn without_place(error: &serde_json::Error) -> String {
     let message = error.to_string();
     match message.rfind(" at line ") {

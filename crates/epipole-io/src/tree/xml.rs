@@ -87,7 +87,7 @@ fn element(start: &BytesStart, line: usize) -> Result<Open> {
     let name = String::from_utf8_lossy(start.local_name().as_ref()).into_owned();
     let mut entries = Vec::new();
     let mut attributes = start.attributes();
-    // Two attributes of one name are no harm: the first is taken.
+    // Duplicate attributes are harmless; the first is used.
     for attribute in attributes.with_checks(false) {
         let attribute = attribute
             .map_err(|error| Error::at(line, format!("attribute of <{name}>: {error}")))?;

@@ -5,7 +5,7 @@ use super::node::{MAX_DEPTH, Node, Value};
 use crate::{Error, Result};
 use saphyr_parser::{Event, Parser, ScalarStyle};
 
-/// A list or map that is not complete.
+/// An incomplete list or map.
 struct Open {
     line: usize,
     content: Content,
@@ -19,7 +19,7 @@ enum Content {
 
 /// Reads the first document of a YAML text.
 pub(super) fn parse(text: &str) -> Result<Node> {
-    // `%YAML:1.0` of OpenCV is no valid directive, so directives become comments.
+    // OpenCV's `%YAML:1.0` is not a valid directive, so directives become comments.
     let commented = text.strip_prefix('%').map(|rest| format!("#{rest}"));
     let text = commented.as_deref().unwrap_or(text);
     let mut open: Vec<Open> = Vec::new();

@@ -1,4 +1,4 @@
-//! Written reconstructions can be read by independent readers.
+//! Tests that independent readers can read written reconstructions.
 
 use crate::damage::config;
 use crate::model::Model;
@@ -10,7 +10,7 @@ use proptest::prelude::*;
 fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)> {
     let number = || -1e6..1e6_f64;
     let image = (
-        // Names of files may hold anything but a slash.
+        // File names may contain anything but a slash.
         "[^/\0]{1,12}",
         1..5000_u32,
         prop::collection::vec((number(), number()), 1..6),
@@ -87,10 +87,10 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
         })
 }
 
-/// The words of the lines that are no comments; an empty line is one without keypoints.
+/// Returns the words of the lines without comments; an empty line has no keypoints.
 fn lines(text: &str) -> Vec<Vec<&str>> {
     let is_told = |line: &&str| !line.starts_with('#');
-    // A line ends where COLMAP ends it, at its line feed.
+    // As in COLMAP, a line ends at the line feed.
     let whole = text.strip_suffix('\n').unwrap_or(text);
     whole
         .split('\n')
@@ -105,7 +105,8 @@ fn number(word: &str) -> f64 {
     value
 }
 
-/// The values behind the header of a binary PLY file with colors, and how many it promises.
+/// Returns the values after the header of a binary PLY file with colors, and their count in the
+/// header.
 fn ply(bytes: &[u8]) -> (usize, &[u8]) {
     let end = bytes
         .windows(11)

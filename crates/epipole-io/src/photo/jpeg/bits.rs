@@ -8,7 +8,7 @@ const LOOKUP_BITS: u32 = 10;
 /// The Huffman codes of one table.
 #[derive(Clone)]
 pub(super) struct Huffman {
-    /// By the next [`LOOKUP_BITS`] bits: symbol · 256 + length, or 0 where the code is longer.
+    /// By the next [`LOOKUP_BITS`] bits: symbol · 256 + length, or 0 if the code is longer.
     lookup: Vec<u16>,
     /// By length: the first 16-bit window that is beyond the codes of this length.
     end: [u32; 17],
@@ -18,8 +18,8 @@ pub(super) struct Huffman {
 }
 
 impl Huffman {
-    /// Builds the table from the number of codes of each length, and their symbols in order, as the
-    /// file lists them. `None` if these are no codes.
+    /// Builds the table from the number of codes of each length and their symbols in order, as in
+    /// the file. `None` if the codes are invalid.
     pub(super) fn new(counts: &[u8], symbols: &[u8]) -> Option<Self> {
         let mut table = Self {
             lookup: vec![0; 1 << LOOKUP_BITS],
@@ -54,12 +54,11 @@ impl Huffman {
 /// Reads the bits between two markers.
 pub(super) struct Bits<'a> {
     data: &'a [u8],
-    /// The next byte; once the data have ended, the marker there or the end of the file.
+    /// Offset of the next byte; after the end of the data, of the marker or the end of the file.
     pub(super) at: usize,
-    /// The next bits, the first of them on top.
+    /// The next bits, most significant first.
     window: u64,
-    /// Number of bits in the window that come from the file. Negative if more were taken than there
-    /// were.
+    /// Number of bits in the window that come from the file. Negative if more bits were taken.
     left: i32,
     ended: bool,
 }
@@ -113,7 +112,7 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// The next symbol; the bits that belong to it are then in the window too.
+    /// Reads the next symbol; its additional bits are then in the window.
     #[inline(always)]
     pub(super) fn symbol(&mut self, table: &Huffman) -> Result<u8, Flaw> {
         self.fill();
@@ -144,7 +143,7 @@ impl<'a> Bits<'a> {
         symbol.copied().ok_or(Flaw::Senseless)
     }
 
-    /// Passes over bits that are in the window, up to 16 after a symbol.
+    /// Skips bits of the window, up to 16 after a symbol.
     #[inline(always)]
     pub(super) fn skip(&mut self, count: u32) -> Result<(), Flaw> {
         self.window <<= count;
@@ -156,7 +155,7 @@ impl<'a> Bits<'a> {
         }
     }
 
-    /// The value of the next bits, up to 16.
+    /// Reads the value of the next bits, up to 16.
     pub(super) fn take(&mut self, count: u32) -> Result<u32, Flaw> {
         self.fill();
         let value = if count == 0 {
@@ -168,13 +167,13 @@ impl<'a> Bits<'a> {
         Ok(value as u32)
     }
 
-    /// Whether only the padding of the last byte is left: ones.
+    /// Returns whether only the padding of the last byte is left: ones.
     pub(super) fn only_padding(&mut self) -> bool {
         self.fill();
         self.ended && self.left < 8 && self.window.leading_ones() >= self.left as u32
     }
 
-    /// Drops the rest before the next marker, and returns the marker's offset.
+    /// Skips to the next marker and returns its offset.
     pub(super) fn into_marker(mut self) -> usize {
         while !self.ended {
             self.left = 0;

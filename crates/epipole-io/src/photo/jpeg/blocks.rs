@@ -1,9 +1,9 @@
-//! Passing over the blocks of 8 × 8 coefficients of a scan (ITU-T T.81, annexes F and G).
+//! Skipping the blocks of 8 × 8 coefficients of a scan (ITU-T T.81, annexes F and G).
 
 use super::bits::{Bits, Huffman};
 use super::flaw::Flaw;
 
-/// A block of all of its coefficients, as of a sequential file.
+/// Skips a block with all of its coefficients, as in a sequential file.
 #[inline]
 pub(super) fn whole(bits: &mut Bits<'_>, dc: &Huffman, ac: &Huffman) -> Result<(), Flaw> {
     dc_first(bits, dc)?;
@@ -26,18 +26,18 @@ pub(super) fn whole(bits: &mut Bits<'_>, dc: &Huffman, ac: &Huffman) -> Result<(
     Ok(())
 }
 
-/// The difference of brightness to the block before.
+/// Skips the DC difference to the previous block.
 pub(super) fn dc_first(bits: &mut Bits<'_>, dc: &Huffman) -> Result<(), Flaw> {
     let size = u32::from(bits.symbol(dc)?);
-    // Eleven suffice for eight bits a channel, sixteen for any.
+    // Eleven bits suffice for eight bits per channel, sixteen for any.
     if size > 16 {
         return Err(Flaw::Senseless);
     }
     bits.skip(size)
 }
 
-/// The coefficients `from ..= to` of progressive scans, as far as one needs them to go on: which
-/// ones of a block are not zero, a bit each, and how many blocks from here on bring nothing new.
+/// State of a progressive scan of the coefficients `from ..= to`: the number of following blocks
+/// without new coefficients. A bit set marks the nonzero coefficients of each block.
 pub(super) struct Progressive<'a> {
     pub(super) ac: &'a Huffman,
     pub(super) from: u32,
@@ -46,7 +46,7 @@ pub(super) struct Progressive<'a> {
 }
 
 impl Progressive<'_> {
-    /// The first bits of a block's coefficients.
+    /// Skips the first bits of a block's coefficients.
     pub(super) fn first(&mut self, bits: &mut Bits<'_>, known: &mut u64) -> Result<(), Flaw> {
         if self.idle_blocks > 0 {
             self.idle_blocks -= 1;
@@ -74,7 +74,7 @@ impl Progressive<'_> {
         Ok(())
     }
 
-    /// One more bit of each of a block's coefficients that are known, and new ones.
+    /// Skips one more bit of each known coefficient of a block, and new ones.
     pub(super) fn refine(&mut self, bits: &mut Bits<'_>, known: &mut u64) -> Result<(), Flaw> {
         let mut k = self.from;
         if self.idle_blocks == 0 {

@@ -1,4 +1,4 @@
-//! A walk over the segments of a file.
+//! Check of the segments of a file.
 
 use super::flaw::Flaw;
 use super::frame::Frame;
@@ -7,21 +7,21 @@ use super::standard;
 use super::tables::Tables;
 use std::borrow::Cow;
 
-/// Parts that an intact file leaves out, and its decoder needs.
+/// Parts that an intact file may lack and its decoder needs.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(in crate::photo) struct Missing {
-    /// End of the last block, where there is no end-of-image marker.
+    /// End of the last block, if there is no end-of-image marker.
     pub(super) end_at: Option<usize>,
-    /// Whether it has no Huffman tables, and is coded by the standard ones.
+    /// Whether it has no Huffman tables and uses the standard ones.
     pub(super) tables: bool,
 }
 
 impl Missing {
-    /// The file with these parts.
+    /// Returns the file with these parts.
     pub(in crate::photo) fn added_to(self, file: &[u8]) -> Cow<'_, [u8]> {
         let mut whole = Cow::from(file);
         if let Some(at) = self.end_at {
-            // The decoder would take the last rows for lost.
+            // Otherwise the decoder would treat the last rows as lost.
             whole = [&file[..at], &[0xFF, 0xD9]].concat().into();
         }
         if self.tables {
@@ -31,15 +31,15 @@ impl Missing {
     }
 }
 
-/// Passes over a JPEG file; over its markers only if its picture is larger than `max_pixels`.
+/// Checks a JPEG file; only its markers if the image is larger than `max_pixels`.
 ///
 /// # Errors
-/// The damage to its data in words, if there is any.
+/// A description of the damage.
 pub(in crate::photo) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, String> {
     let mut tables = Tables::default();
     let mut missing = Missing::default();
     let mut frame: Option<Frame> = None;
-    // Whether the data are of a kind that is known here.
+    // Whether the coding is supported here.
     let mut known = true;
     let (mut at, mut behind) = (2, 2);
     while at + 1 < file.len() {
@@ -55,7 +55,7 @@ pub(in crate::photo) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, S
                 continue;
             }
             (0xFF, marker @ 0x02..=0xFE) => marker,
-            // Bytes too many before a marker are no harm; or data that are unknown here.
+            // Extra bytes before a marker are harmless; or data of an unsupported coding.
             _ => {
                 at += 1;
                 continue;
@@ -96,7 +96,7 @@ pub(in crate::photo) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, S
         }
     }
     match frame {
-        // Progressive files could always go on.
+        // Progressive files could always continue.
         Some(frame) if known && !frame.progressive && frame.is_complete() => {
             missing.end_at = Some(behind);
             Ok(missing)
@@ -107,7 +107,7 @@ pub(in crate::photo) fn check(file: &[u8], max_pixels: u64) -> Result<Missing, S
 
 const ENDS: &str = "the JPEG file ends before its picture does";
 
-/// The bytes behind the length at `at`, where the file has that many.
+/// Returns the bytes after the length at `at`, if the file has that many.
 fn segment(file: &[u8], at: usize) -> Option<&[u8]> {
     let length = file.get(at..at + 2)?;
     let length = usize::from(u16::from_be_bytes([length[0], length[1]])).max(2);

@@ -1,6 +1,6 @@
 //! Frame headers (ITU-T T.81, annex B.2.2).
 
-/// A picture of eight bits a channel.
+/// An image of eight bits per channel.
 pub(super) struct Frame {
     pub(super) progressive: bool,
     pub(super) width: u32,
@@ -11,18 +11,18 @@ pub(super) struct Frame {
 /// A channel of brightness or color.
 pub(super) struct Component {
     pub(super) id: u8,
-    /// Blocks side by side in a unit of all components.
+    /// Number of blocks across in a unit of all components.
     pub(super) wide: u32,
-    /// Blocks one above the other in such a unit.
+    /// Number of blocks down in a unit of all components.
     pub(super) high: u32,
-    /// Of a progressive file, once it is needed: which coefficients of a block are not zero.
+    /// Nonzero coefficients of each block of a progressive file, allocated when needed.
     pub(super) known: Vec<u64>,
-    /// Whether a scan had it.
+    /// Whether a scan contained it.
     pub(super) seen: bool,
 }
 
 impl Frame {
-    /// `None` if it is none that is known here.
+    /// Reads a frame header; `None` if it is not supported here.
     pub(super) fn read(segment: &[u8], progressive: bool) -> Option<Self> {
         let (&[precision, h0, h1, w0, w1, count], parts) = segment.split_first_chunk::<6>()?;
         let height = u32::from(u16::from_be_bytes([h0, h1]));
@@ -50,7 +50,7 @@ impl Frame {
         })
     }
 
-    /// The most blocks of a component in a unit, side by side and one above the other.
+    /// Returns the maximum numbers of blocks of a component in a unit, across and down.
     pub(super) fn unit(&self) -> (u32, u32) {
         let most = |of: fn(&Component) -> u32| self.components.iter().map(of).max().unwrap_or(1);
         (most(|c| c.wide), most(|c| c.high))
@@ -60,7 +60,7 @@ impl Frame {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Whether a scan had each component.
+    /// Returns whether every component was in a scan.
     pub(super) fn is_complete(&self) -> bool {
         self.components.iter().all(|c| c.seen)
     }

@@ -1,4 +1,4 @@
-//! Passing over a scan, unit by unit (ITU-T T.81, annexes A.2 and B.2.3).
+//! Skipping a scan, unit by unit (ITU-T T.81, annexes A.2 and B.2.3).
 
 use super::bits::{Bits, Huffman};
 use super::blocks::{Progressive, dc_first, whole};
@@ -31,7 +31,7 @@ struct Blocks<'a> {
 }
 
 impl Scan {
-    /// `None` if it makes no sense with this frame.
+    /// Reads a scan header; `None` if it does not fit this frame.
     pub(super) fn read(segment: &[u8], frame: &Frame) -> Option<Self> {
         let (&count, rest) = segment.split_first()?;
         let count = usize::from(count);
@@ -137,11 +137,11 @@ impl Scan {
         Some(Ok(at))
     }
 
-    /// Number of units across and down, and height of a unit in rows of pixels.
+    /// Returns the number of units across and down, and the height of a unit in rows of pixels.
     fn units(&self, frame: &Frame) -> (u32, u32, u32) {
         let (wide, high) = frame.unit();
         if let [part] = self.parts.as_slice() {
-            // A component alone comes block by block, those of padding left out.
+            // A single component is stored block by block, without padding blocks.
             let own = &frame.components[part.component];
             let across = (frame.width * own.wide).div_ceil(8 * wide);
             let down = (frame.height * own.high).div_ceil(8 * high);
@@ -157,7 +157,7 @@ impl Scan {
     }
 }
 
-/// Behind the restart marker that has to be at `at`.
+/// Returns the offset after the restart marker that must be at `at`.
 fn restart(file: &[u8], at: usize) -> Option<usize> {
     let fill = file.get(at..)?.iter().take_while(|&&byte| byte == 0xFF);
     let marker = at + fill.count();
@@ -232,10 +232,10 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Whether the remaining bytes are further units, to the last bit: then a code was lost, and
-    /// blocks are misplaced. Anything else behind the last unit is harmless, as some cameras write
-    /// a few bytes too many. In progressive files a single bit may be a block, so those cannot be
-    /// judged.
+    /// Returns whether the remaining bytes are further units, to the last bit, which means that a
+    /// code was lost and blocks are misplaced. Other bytes after the last unit are harmless, as
+    /// some cameras write a few extra bytes. In progressive files a single bit may be a block, so
+    /// those cannot be judged.
     fn goes_on(&mut self, bits: &mut Bits<'_>) -> bool {
         if self.progressive || bits.only_padding() {
             return false;

@@ -1,4 +1,4 @@
-//! The Huffman tables of files that have none, as the frames of many webcams and videos.
+//! Huffman tables for files without them, such as frames of many webcams and videos.
 
 /// Contents of a segment of tables (DHT): DC and AC of brightness, DC and AC of color, each its
 /// class and number, counts by length, and symbols.
@@ -34,7 +34,7 @@ pub(super) const TABLES: [u8; 416] = [
     0xE4, 0xE5, 0xE6, 0xE7, 0xE8, 0xE9, 0xEA, 0xF2, 0xF3, 0xF4, 0xF5, 0xF6, 0xF7, 0xF8, 0xF9, 0xFA,
 ];
 
-/// The file with these tables behind its first marker.
+/// Inserts these tables after the first marker.
 pub(super) fn inserted(file: &[u8]) -> Vec<u8> {
     let (start, rest) = file.split_at(file.len().min(2));
     let length = (TABLES.len() as u16 + 2).to_be_bytes();

@@ -1,4 +1,4 @@
-//! Tables that segments before a scan set.
+//! Tables set by the segments before a scan.
 
 use super::bits::Huffman;
 use super::standard;
@@ -8,7 +8,7 @@ use super::standard;
 pub(super) struct Tables {
     pub(super) dc: [Option<Huffman>; 4],
     pub(super) ac: [Option<Huffman>; 4],
-    /// Units between two restarts; zero for none.
+    /// Number of units between two restarts; 0: none.
     pub(super) restart: u32,
 }
 

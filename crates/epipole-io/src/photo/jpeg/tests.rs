@@ -58,7 +58,7 @@ fn file(hex: &str) -> Vec<u8> {
     (0..hex.len()).step_by(2).map(digit).collect()
 }
 
-/// Offset of the first scan's data.
+/// Returns the offset of the first scan's data.
 fn data_at(file: &[u8]) -> usize {
     let scan = file.windows(2).position(|two| two == [0xFF, 0xDA]).unwrap();
     scan + 2 + usize::from(file[scan + 3])
@@ -100,8 +100,7 @@ fn data_that_end_early_are_found_wherever_they_end() {
         passed += usize::from(check_all(&[&whole[..at], &END].concat()).is_ok());
         assert!(check_all(&whole[..at]).is_err());
     }
-    // A file without its last scan is an image, too: there were ten. Tables may have come before
-    // the scan.
+    // A file without its last scan is still an image, and tables may precede the scan.
     assert!(passed < 600, "{passed}");
 }
 
@@ -154,8 +153,8 @@ fn bytes_that_changed_are_found_where_they_make_no_sense() {
             tried += 1;
         }
     }
-    // Tables made for this image alone leave hardly any code unused: in photographs half of the
-    // changes are found.
+    // Tables optimized for this image leave hardly any code unused; in photos half of the changes
+    // are found.
     assert!(senseless > 20, "{senseless}");
     assert!(found * 5 > tried, "{found} of {tried}");
 }
@@ -207,7 +206,7 @@ fn what_is_unknown_is_left_to_the_decoder() {
     assert_eq!(check_all(&whole), Ok(Missing::default()));
 }
 
-/// The file without its segments of tables.
+/// Removes the segments of tables.
 fn without_tables(file: &[u8]) -> Vec<u8> {
     let mut bare = file[..2].to_vec();
     let mut at = 2;
@@ -239,7 +238,7 @@ fn a_file_without_tables_is_read_by_the_standard_ones() {
         assert!(check_all(file).unwrap().tables);
         assert_eq!(decode_rgb(file, &options).unwrap().image, expected);
     }
-    // Data by other tables make no sense.
+    // Data coded with other tables are invalid.
     assert!(check_all(&without_tables(&self::file(SEQUENTIAL))).is_err());
     // Progressive files always have their own.
     let progressive = check_all(&without_tables(&self::file(PROGRESSIVE)));
