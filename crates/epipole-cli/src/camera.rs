@@ -70,7 +70,7 @@ impl PairArguments {
         self.camera.is_given()
     }
 
-    /// Whether only a focal length is given.
+    /// Returns whether a focal length is given, without K. Returns whether any is given.
     pub(crate) fn has_focal_only(&self) -> bool {
         self.camera.focal_px.is_some()
     }
@@ -144,7 +144,7 @@ pub(crate) fn some_unknown(guesses: &[Guess]) -> bool {
     guesses.iter().any(|guess| !guess.from_exif)
 }
 
-/// Warning about guessed focal lengths; `None` without guesses.
+/// Returns a warning about guessed focal lengths; `None` without guesses.
 pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
     let first = guesses.first()?;
     let num_exif = guesses.iter().filter(|guess| guess.from_exif).count();

@@ -104,7 +104,7 @@ fn settable(command: &Command) -> impl Iterator<Item = &Arg> {
     command.get_arguments().filter(is_settable)
 }
 
-/// Value of an option as TOML, if it has one.
+/// Returns the value of an option as TOML, if it has one.
 fn value(argument: &Arg, matches: &ArgMatches) -> Result<Option<Value>, Failure> {
     let id = argument.get_id().as_str();
     if !argument.get_action().takes_values() {
@@ -156,7 +156,7 @@ fn table(path: &Path) -> Result<Table, Failure> {
     })
 }
 
-/// Options of a file for a command, as arguments.
+/// Converts the options of a file for a command to arguments.
 fn options(
     command: &Command,
     subcommand: &Command,
@@ -188,7 +188,7 @@ fn options(
     Ok(added)
 }
 
-/// The arguments of a key and its value.
+/// Converts a key and its value to arguments.
 fn option(
     subcommand: &Command,
     given: &ArgMatches,

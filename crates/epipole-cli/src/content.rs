@@ -86,7 +86,7 @@ impl Content {
         Err(Failure::new("malformed", message).about(path))
     }
 
-    /// Name of the format.
+    /// Returns the name of the format.
     pub(crate) fn format(&self) -> String {
         match self {
             Self::Model(read) => read.format.name().to_owned(),

@@ -26,7 +26,7 @@ impl Failure {
         }
     }
 
-    /// Wrong usage: conflicting options, or options that do not fit a file.
+    /// Creates a failure for wrong usage: conflicting options, or options that do not fit a file.
     pub(crate) fn usage(message: impl Into<String>) -> Self {
         Self::new("usage", message)
     }

@@ -101,7 +101,7 @@ const COMPRESSED: [(&str, &[u8]); 5] = [
     ("zip", b"PK\x03\x04"),
 ];
 
-/// Error for a file that cannot be read.
+/// Returns the error for a file that cannot be read.
 pub(crate) fn unreadable(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),

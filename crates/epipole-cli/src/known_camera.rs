@@ -93,7 +93,7 @@ impl CameraFile {
     /// Reads two photos and keeps their distortion.
     ///
     /// # Errors
-    /// For files that cannot be read, and where neither photograph is by the camera.
+    /// For files that cannot be read, and if neither photo is by the camera.
     pub(crate) fn read(
         &self,
         paths: [&Path; 2],

@@ -18,7 +18,7 @@ const UNREAD: [&str; 14] = [
     "rw2",
 ];
 
-/// Folders of photographs.
+/// Folders of photos.
 #[derive(Debug, Clone, Copy, Default, Args)]
 #[command(next_help_heading = "Images")]
 pub(crate) struct ListingArguments {
@@ -27,7 +27,7 @@ pub(crate) struct ListingArguments {
     recursive: bool,
 }
 
-/// A photograph.
+/// A listed photo.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Listed {
     pub(crate) path: PathBuf,
@@ -40,8 +40,8 @@ impl ListingArguments {
     /// before subfolders. Warns of photos skipped for their format.
     ///
     /// # Errors
-    /// For files and folders that cannot be read, folders without photographs, and a file that is
-    /// given twice.
+    /// For files and folders that cannot be read, folders without photos, and a file that is given
+    /// twice.
     pub(crate) fn photos(
         self,
         given: &[PathBuf],

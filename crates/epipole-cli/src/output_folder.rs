@@ -41,7 +41,7 @@ impl OutputFolder {
         }
     }
 
-    /// Path of the folder.
+    /// Returns the path of the folder.
     pub(crate) fn folder(&self) -> &Path {
         &self.folder
     }
@@ -147,7 +147,7 @@ fn parse(text: &str) -> BTreeMap<String, Written> {
     text.lines().filter_map(line).collect()
 }
 
-/// FNV-1a, 64 bits.
+/// Returns the 64-bit FNV-1a checksum.
 fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| {
         (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)

@@ -36,9 +36,10 @@ pub(crate) struct PatternArguments {
 }
 
 impl PatternArguments {
-    /// The pattern.
+    /// Returns the pattern.
     ///
-    /// * `marker`, `square`: sides in one unit; the default marker side is three quarters of the square
+    /// * `marker`, `square`: sides in one unit; the default marker side is three quarters of the
+    ///   square
     pub(crate) fn pattern(&self, marker: Option<f64>, square: f64) -> Pattern {
         match self.pattern {
             Printed::Chessboard => Pattern::Chessboard,

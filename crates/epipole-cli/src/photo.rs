@@ -34,7 +34,7 @@ pub(crate) struct Photo {
     pub(crate) is_as_stored: bool,
 }
 
-/// A lens whose distortion a photograph keeps.
+/// A lens whose distortion a photo keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct KeptLens {
     pub(crate) lens: Lens,

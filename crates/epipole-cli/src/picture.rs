@@ -1,4 +1,4 @@
-//! Pictures of results: marks on photographs.
+//! Pictures of results: marks on photos.
 
 use epipole::feature::Keypoint;
 use image::codecs::jpeg::JpegEncoder;
@@ -32,7 +32,7 @@ pub(crate) fn png(picture: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure
 /// Encodes a photo as JPEG of high quality.
 ///
 /// # Errors
-/// If the photograph has no pixels, or more to a side than JPEG can count.
+/// If the photo has no pixels, or sides too long for JPEG.
 pub(crate) fn jpeg(photograph: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure> {
     let mut bytes = Vec::new();
     JpegEncoder::new_with_quality(&mut bytes, 95)

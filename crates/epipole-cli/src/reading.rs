@@ -1,4 +1,4 @@
-//! Options of reading photographs: values, memory, size.
+//! Options of reading photos: values, memory, size.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -101,7 +101,7 @@ pub(crate) struct SizeArguments {
 }
 
 impl From<ReadArguments> for SizeArguments {
-    /// Options without downscaling.
+    /// Returns options without downscaling.
     fn from(reading: ReadArguments) -> Self {
         Self {
             max_megapixels: None,

@@ -22,7 +22,7 @@ pub(crate) fn find_turn(
     find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging(ransac))
 }
 
-/// Warning about a rotation that explains the inliers.
+/// Returns a warning about a rotation that explains the inliers.
 pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     format!(
         "a camera that only turned explains {} of the {} inliers: whether and in which direction it \
@@ -31,8 +31,8 @@ pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     )
 }
 
-/// Warning about a homography whose inliers fit a rotation with another focal length equally well,
-/// if there is one.
+/// Returns a warning if the inliers of a homography fit a rotation with another focal length
+/// equally well.
 ///
 /// * `cameras`: known or guessed
 /// * `inliers`: those of the homography
@@ -56,7 +56,7 @@ pub(crate) fn sentence_of_other_focal(
     }))
 }
 
-/// Warning about inliers that do not determine F, such as those of a plane or a rotation.
+/// Returns a warning if the inliers do not determine F, such as those of a plane or a rotation.
 pub(crate) fn left_open(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -67,7 +67,7 @@ pub(crate) fn left_open(
     Ok(found.map(|found| sentence_of_degeneracy(&found)))
 }
 
-/// Warning about inliers on a line, which do not determine a homography.
+/// Returns a warning if the inliers are on a line, which does not determine a homography.
 pub(crate) fn left_open_by_homography(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
@@ -91,8 +91,8 @@ pub(crate) fn left_open_by_homography(
     Ok(None)
 }
 
-/// Number of pixels on one line, if too few others constrain the model: a homography fits any two
-/// of them, with any mapping on the line.
+/// Returns the number of pixels on one line, if too few others constrain the model. A homography
+/// fits any two others, with any mapping on the line.
 fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
     const OTHERS: usize = 2;
     /// Fewer lie on a line by chance.

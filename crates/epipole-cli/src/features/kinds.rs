@@ -9,9 +9,8 @@ use epipole::feature::FeatureOptions;
 #[derive(Debug, Clone, Copy, Args)]
 #[command(next_help_heading = "Features of one kind")]
 pub(super) struct KindArguments {
-    /// SIFT: maximum number of pixels of an image that is also searched at twice its size, for
-    /// small features; larger images are only if they have fewer than --max-features without (0:
-    /// none is).
+    /// SIFT: also search images of up to N pixels at twice their size, for small features, and
+    /// larger ones if they yield fewer than --max-features (0: never).
     #[arg(long, default_value_t = FeatureOptions::default().max_upsampled_pixels, value_name = "N")]
     max_upsampled_pixels: u64,
     /// SIFT: assumed blur of the image, pixels, at most half of --sigma-px.

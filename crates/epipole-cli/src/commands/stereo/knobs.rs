@@ -141,7 +141,7 @@ impl SgmArguments {
         silent(&said, "sgm")
     }
 
-    /// The matcher for the core.
+    /// Returns the matcher of the core.
     pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoSgm {
         let usual = StereoSgm::default();
         StereoSgm::default()
@@ -174,7 +174,7 @@ impl BmArguments {
         silent(&said, "bm")
     }
 
-    /// The matcher for the core.
+    /// Returns the matcher of the core.
     pub(super) fn matcher(&self, keep: &KeepArguments, disparities: (i32, u32)) -> StereoBm {
         let usual = StereoBm::default();
         StereoBm::default()

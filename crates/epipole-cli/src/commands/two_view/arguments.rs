@@ -98,7 +98,8 @@ struct JudgingArguments {
     /// Minimum number of distinct inliers; with fewer, the configuration is degenerate.
     #[arg(long, default_value_t = TwoViewOptions::default().min_num_inliers, value_name = "N")]
     min_inliers: usize,
-    /// Ratio of the epipolar inliers that a homography must explain to mean a plane or a rotation.
+    /// Minimum ratio of the epipolar inliers explained by a homography that means a plane or a
+    /// rotation.
     #[arg(long, default_value_t = TwoViewOptions::default().max_homography_share, value_name = "RATIO", value_parser = positive)]
     max_homography_share: f64,
     /// Minimum ratio of E's inliers to F's for E to be preferred.
