@@ -18,12 +18,12 @@ pub(crate) struct CameraArguments {
 }
 
 impl CameraArguments {
-    /// Whether there are any.
+    /// Returns whether any is given.
     pub(crate) fn is_given(&self) -> bool {
         self.k.is_some() || self.focal_px.is_some()
     }
 
-    /// The intrinsics given, if any.
+    /// Returns the given intrinsics, if any.
     ///
     /// # Errors
     /// As [`Intrinsics::centered`].
@@ -65,7 +65,7 @@ pub(crate) struct PairArguments {
 }
 
 impl PairArguments {
-    /// Whether there are any.
+    /// Returns whether any is given.
     pub(crate) fn is_given(&self) -> bool {
         self.camera.is_given()
     }

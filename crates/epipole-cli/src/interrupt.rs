@@ -28,7 +28,7 @@ pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
 }
 
-/// Monitor that shows nothing and cancels after Ctrl-C.
+/// Cancels after Ctrl-C; a monitor that shows nothing.
 pub(crate) fn watch(_: Status) -> ControlFlow<()> {
     match requested() {
         true => ControlFlow::Break(()),

@@ -65,7 +65,7 @@ pub(crate) struct Arguments {
     /// distorted. Not for rigs, whose frames are rectified.
     #[arg(long = "camera", value_name = "FILE", conflicts_with_all = ["k", "right"])]
     camera_file: Option<PathBuf>,
-    /// Folder of the right camera's frames (rectified, as many as left ones, in the same order).
+    /// Folder of the right camera's frames (rectified, one per left frame, in the same order).
     #[arg(long, value_name = "FOLDER", requires = "stereo_baseline_m")]
     right: Option<PathBuf>,
     /// Distance between the cameras, meters.

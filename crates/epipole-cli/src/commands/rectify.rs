@@ -28,7 +28,7 @@ use std::path::PathBuf;
     mut_arg("camera_file", |argument| argument.conflicts_with_all(["k", "k2", "focal_px"])),
     mut_arg("baseline_m", |argument| argument.conflicts_with("rig")),
     after_help = "Example: epipole rectify left.jpg right.jpg --focal-px 1200 -o rectified\n\n\
-    Writes left.png and right.png. Without --rig, --camera, --k or --focal-px shapes are known only up\n\
+    Writes left.png and right.png. Without --rig, --camera, --k or --focal-px the shapes are known only up\n\
     to a projective map, and there is no Q. With --rig the images are not matched:\n  \
     epipole calibrate left*.jpg --board 9x6 --square-m 0.025 --right right*.jpg -o rig.json\n  \
     epipole rectify left.jpg right.jpg --rig rig.json -o rectified\n\n\

@@ -148,7 +148,7 @@ impl<'a> Field<'a> {
             .ok_or_else(|| self.wrong(&format!("is not a finite number{}", self.shown())))
     }
 
-    /// A word or string.
+    /// Returns a word or string.
     ///
     /// # Errors
     /// [`Error::Malformed`] for lists and maps.

@@ -33,7 +33,7 @@ impl Known {
     /// Finds features in the images of a model and assigns them to points.
     ///
     /// # Errors
-    /// For a model without observations, and on images that are missing or have another shape than
+    /// For a model without observations, and for images that are missing or have another shape than
     /// their cameras.
     pub(super) fn read(
         arguments: &Arguments,

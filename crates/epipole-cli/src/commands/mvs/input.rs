@@ -22,8 +22,8 @@ pub(super) struct Input {
 
 impl Input {
     /// # Errors
-    /// For a model with too little in it, and on images that are missing or have another shape than
-    /// their cameras.
+    /// For a model without enough points or images, and for images that are missing or have another
+    /// shape than their cameras.
     pub(super) fn read(
         arguments: &Arguments,
         model: &Model,

@@ -29,7 +29,7 @@ const EXAMPLE: &str = "Example: epipole pnp points.txt --k 800,800,320,240";
     of epipole calibrate, cam_from_world (rotation and translation, in the unit of the points). It also has\n\
     center (of the camera, in the world), inliers (1 or 0 for each row), num_inliers, mean_error_px (of the\n\
     inliers), max_error_px (as given, or as found by auto), focal_px (if it was unknown, else null), focal_std_px\n\
-    (its standard deviation, or null), alternatives (other poses that fit as well: cam_from_world, center,\n\
+    (its standard deviation, or null), alternatives (other poses that fit equally well: cam_from_world, center,\n\
     mean_error_px, focal_px each)."
 )]
 pub(crate) struct Arguments {
@@ -91,7 +91,7 @@ impl Arguments {
     /// Returns the known part of the camera.
     ///
     /// # Errors
-    /// For a file that cannot be read, or on a missing principal point.
+    /// For a file that cannot be read, and for a missing principal point.
     pub(super) fn view(&self) -> Result<View, Failure> {
         if let Some(file) = &self.camera {
             return lens::read(file, None).map(View::Camera);

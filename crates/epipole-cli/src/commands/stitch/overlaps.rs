@@ -166,7 +166,7 @@ struct Fit<'a> {
 }
 
 impl<'a> Fit<'a> {
-    /// `None` if a photo of the overlap is left out.
+    /// Fits an overlap; `None` if one of its photos is left out.
     fn new(overlap: &'a Overlap, panorama: &Panorama) -> Option<Self> {
         let [first, second] = overlap.images.map(|n| panorama.pixel_from_direction[n]);
         let errors = errors_px(&first?, &second?, overlap);

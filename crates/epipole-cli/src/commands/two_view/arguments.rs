@@ -23,7 +23,7 @@ pub(super) enum Model {
     Homography,
 }
 
-/// Find the geometry of two images.
+/// Estimate the geometry of two images.
 #[derive(Debug, Args)]
 #[command(
     mut_arg("max_error_px", |argument| argument.help(
