@@ -2,25 +2,23 @@
 
 mod arguments;
 mod input;
+mod surface;
 
 pub(crate) use self::arguments::Arguments;
 
-use self::arguments::MeshFormat;
 use self::input::Input;
+use self::surface::Surface;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::model;
 use crate::output_folder::OutputFolder;
 use crate::progress::Progress;
 use crate::report::Report;
-use epipole::mvs::{
-    DepthMap, Mesh, MvsView, estimate_depth_maps, fuse_depth_maps, mesh_depth_maps, prepare_views,
-};
+use epipole::mvs::{DepthMap, MvsView, estimate_depth_maps, fuse_depth_maps, prepare_views};
 use epipole::progress::Part;
 use epipole::stereo::PointCloud;
 use epipole_io::cloud::write_ply;
 use epipole_io::depth_map::{write_colmap_depth, write_colmap_normals};
-use epipole_io::mesh::{write_mesh_glb, write_mesh_obj, write_mesh_ply};
 use epipole_io::model::{Model, ModelFormat, ModelImage};
 use serde_json::{Value, json};
 
@@ -30,6 +28,7 @@ const ESTIMATED: f32 = 0.9;
 const FUSED: f32 = 0.94;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
+    Surface::check(arguments)?;
     let options = arguments.options(context);
     let model = model::read(&arguments.model)?.model;
     let input = Input::read(arguments, &model, context)?;
@@ -50,9 +49,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         return Err(Failure::new("no-consensus", message).about(&arguments.model));
     }
     let part = &mut Part::new(watch, FUSED, 1.0);
-    let mesh = (arguments.mesh.is_some())
-        .then(|| mesh_depth_maps(&views, &maps, &arguments.mesh_options(), part))
-        .transpose()?;
+    let surface = Surface::of(arguments, &views, &maps, context, part)?;
     drop(progress);
     let name = |view: &MvsView| &*input.names[view.photo];
     let left_out = (0..input.names.len()).filter(|&n| {
@@ -66,20 +63,15 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             input.names.len()
         ));
     }
-    if mesh.as_ref().is_some_and(|mesh| mesh.triangles.is_empty()) {
-        context.warn(
-            "the mesh is empty: no connected piece has enough triangles; try a smaller --voxel-size or \
-             --min-triangles",
-        );
-    }
     let mut output = OutputFolder::new(&arguments.output, "mvs");
     let fused = output.write("fused.ply", &write_ply(&cloud))?;
-    let surface = match (&mesh, arguments.mesh) {
-        (Some(mesh), Some(format)) => {
-            Some(output.write(format.file(), &format.write(mesh, &model)?)?)
-        }
-        _ => None,
-    };
+    let mut files = Vec::new();
+    for (name, bytes) in surface
+        .as_ref()
+        .map_or(Ok(Vec::new()), |surface| surface.files(&model))?
+    {
+        files.push(output.write(name, &bytes)?);
+    }
     for file in undistorted(&views, &name).to_files(ModelFormat::ColmapText)? {
         output.write(&format!("sparse/{}", file.name), &file.bytes)?;
     }
@@ -98,39 +90,10 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("images", rows)
         .row("written", fused.display())
         .field("file", fused.display().to_string());
-    if let (Some(mesh), Some(surface)) = (&mesh, &surface) {
-        let (num_triangles, num_vertices) = (mesh.triangles.len(), mesh.vertices.points.len());
-        report = report
-            .row(
-                "mesh",
-                format!("{num_triangles} triangles, {num_vertices} vertices"),
-            )
-            .row("written", surface.display())
-            .field("num_triangles", num_triangles)
-            .field("num_vertices", num_vertices)
-            .field("mesh", surface.display().to_string());
+    if let Some(surface) = &surface {
+        report = surface.report(report, &files);
     }
     Ok(report)
-}
-
-impl MeshFormat {
-    fn file(self) -> &'static str {
-        match self {
-            Self::Ply => "mesh.ply",
-            Self::Glb => "mesh.glb",
-            Self::Obj => "mesh.obj",
-            Self::Html => "model.html",
-        }
-    }
-
-    fn write(self, mesh: &Mesh, model: &Model) -> Result<Vec<u8>, Failure> {
-        Ok(match self {
-            Self::Ply => write_mesh_ply(mesh),
-            Self::Glb => write_mesh_glb(mesh),
-            Self::Obj => write_mesh_obj(mesh).into_bytes(),
-            Self::Html => model.to_html(mesh)?,
-        })
-    }
 }
 
 /// Returns the cameras of the depth maps as a model without points.

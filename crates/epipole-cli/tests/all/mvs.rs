@@ -160,6 +160,21 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
             .starts_with(b"glTF")
     );
     assert!(!out.join("mesh.ply").exists());
+    let textured = ["--mesh", "obj", "--voxel-size", "0.02", "--texture"];
+    let textured = json(&[&base[..], &textured[..]].concat());
+    let sides = [0, 1].map(|n| textured["texture_size"][n].as_u64().unwrap() as u32);
+    let texture = image::open(out.join("texture.jpg")).unwrap();
+    assert_eq!([texture.width(), texture.height()], sides);
+    let text = std::fs::read_to_string(out.join("mesh.obj")).unwrap();
+    assert!(text.starts_with("mtllib mesh.mtl\nv ") && text.contains("\nusemtl surface\nf 1/"));
+    let material = std::fs::read_to_string(out.join("mesh.mtl")).unwrap();
+    assert!(material.contains("map_Kd texture.jpg"), "{material}");
+    fails(
+        &folder,
+        &[&base[..], &["--mesh", "ply", "--texture"]].concat(),
+        2,
+        "--texture is for --mesh glb and --mesh obj",
+    );
     let page = json(&[&base[..], &["--mesh", "html", "--voxel-size", "0.05"]].concat());
     let text = std::fs::read_to_string(out.join("model.html")).unwrap();
     let title = format!("{} triangles</title>", page["num_triangles"]);

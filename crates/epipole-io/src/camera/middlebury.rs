@@ -48,7 +48,12 @@ fn camera(text: &str, key: &str) -> Result<Camera> {
     let side = |name: &str| {
         let (line, word) = value(text, name)?;
         let side = word.parse::<u32>().ok().filter(|side| *side > 0);
-        side.ok_or_else(|| Error::at(line, format!("{name} is not a whole number of pixels above 0")))
+        side.ok_or_else(|| {
+            Error::at(
+                line,
+                format!("{name} is not a whole number of pixels above 0"),
+            )
+        })
     };
     Ok(Camera {
         width: side("width")?,
@@ -92,7 +97,11 @@ mod tests {
                 "width=0.5",
                 "line 5: width is not a whole number",
             ),
-            ("height=1988", "height=0", "line 6: height is not a whole number"),
+            (
+                "height=1988",
+                "height=0",
+                "line 6: height is not a whole number",
+            ),
             ("; 0 0 1]\ncam1", "]\ncam1", "line 1: cam0 is not [fx 0 cx"),
             ("cam0=[3997.684", "cam0=[-1", "line 1: "),
         ] {

@@ -35,11 +35,12 @@ pub(super) enum MeshFormat {
     The observations determine which photos are compared, and the range of depths. Lens distortion is removed.\n\n\
     Writes fused.ply (points with normals, colors and confidence, the number of photos that agree),\n\
     stereo/depth_maps and stereo/normal_maps in COLMAP's format, and sparse/ (the cameras of these maps). --mesh\n\
-    adds a colored surface of triangles, with holes where no photo sees it.\n\n\
+    adds a colored surface of triangles, with holes where no photo sees it; --texture gives it the pixels of the\n\
+    photos, adjusted to agree along seams.\n\n\
     JSON: num_images, num_depth_maps, density (fraction of pixels with a depth), num_points, mean_views (mean\n\
     number of photos that agree on a point), images (name, width, height, num_neighbors, density, min_depth and\n\
     max_depth of each depth map, null if it is empty), file; with --mesh also num_triangles, num_vertices, mesh\n\
-    (its file)."
+    (its file), with --texture also texture_size (width and height, pixels)."
 )]
 pub(crate) struct Arguments {
     /// File or folder of a model.
@@ -82,6 +83,9 @@ pub(crate) struct Arguments {
     /// Also write a mesh of triangles.
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(super) mesh: Option<MeshFormat>,
+    /// Texture the mesh from the images, instead of colors of vertices (glb and obj).
+    #[arg(long, requires = "mesh")]
+    pub(super) texture: bool,
     /// Edge length of a voxel, in the unit of the model [default: 1.5 pixels].
     #[arg(long, value_name = "SIZE", value_parser = positive, requires = "mesh")]
     voxel_size: Option<f64>,
