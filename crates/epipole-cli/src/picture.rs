@@ -1,7 +1,6 @@
 //! Pictures of results: marks on photos.
 
 use epipole::feature::Keypoint;
-use image::codecs::jpeg::JpegEncoder;
 use image::{Rgb, RgbImage};
 
 /// Colors that differ for every kind of color vision (Okabe & Ito 2008).
@@ -25,18 +24,6 @@ pub(crate) fn png(picture: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure
             &mut std::io::Cursor::new(&mut bytes),
             image::ImageFormat::Png,
         )
-        .map_err(|error| crate::failure::Failure::new("write", error.to_string()))?;
-    Ok(bytes)
-}
-
-/// Encodes a photo as JPEG of high quality.
-///
-/// # Errors
-/// If the photo has no pixels, or sides too long for JPEG.
-pub(crate) fn jpeg(photograph: &RgbImage) -> Result<Vec<u8>, crate::failure::Failure> {
-    let mut bytes = Vec::new();
-    JpegEncoder::new_with_quality(&mut bytes, 95)
-        .encode_image(photograph)
         .map_err(|error| crate::failure::Failure::new("write", error.to_string()))?;
     Ok(bytes)
 }

@@ -2,6 +2,7 @@
 
 mod depth_map;
 mod mesh;
+mod texture;
 mod view;
 
 use crate::images::rgb;
@@ -13,6 +14,7 @@ use epipole::image::RgbImage;
 use epipole::mvs;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+pub(crate) use texture::take_texture;
 use view::MvsView;
 
 /// Undistorts and downscales photos, and chooses the neighbors and the depth range of each.
@@ -147,5 +149,8 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fuse_depth_maps, module)?)?;
     crate::options::declare(module, &mvs::MeshOptions::default())?;
     module.add_class::<mesh::Mesh>()?;
-    module.add_function(wrap_pyfunction!(mesh::mesh_depth_maps, module)?)
+    module.add_function(wrap_pyfunction!(mesh::mesh_depth_maps, module)?)?;
+    crate::options::declare(module, &mvs::TextureOptions::default())?;
+    module.add_class::<texture::MeshTexture>()?;
+    module.add_function(wrap_pyfunction!(texture::texture_mesh, module)?)
 }

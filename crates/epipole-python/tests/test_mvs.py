@@ -85,6 +85,38 @@ def test_mesh_lies_on_the_plane(result, tmp_path):
         mvs.mesh_depth_maps(*result, voxel_size=0.0)
 
 
+def test_texture_has_the_colors_of_the_photos(result, tmp_path):
+    views, maps = result
+    mesh = mvs.mesh_depth_maps(views, maps, voxel_size=0.03)
+    texture = mvs.texture_mesh(mesh, views)
+    assert texture.corners.shape == (len(mesh), 3, 2) and texture.corners.dtype == np.float32
+    height, width, _ = texture.image.shape
+    assert (texture.corners >= 0).all() and (texture.corners <= [width - 1, height - 1]).all()
+    # The mean color of a triangle's middle in the texture and in the photo of view 1.
+    middle = mesh.vertices.points[mesh.triangles].mean(axis=1)
+    u, v = 59.5 + FOCAL_PX * (middle[:, 0] - STEP) / DEPTH, 44.5 + FOCAL_PX * middle[:, 1] / DEPTH
+    inside = (u > 3) & (u < WIDTH - 4) & (v > 3) & (v < HEIGHT - 4)
+    place = texture.corners[inside].mean(axis=1).round().astype(int)
+    found = texture.image[place[:, 1], place[:, 0], 0].astype(float)
+    truth = views[1].image[v[inside].round().astype(int), u[inside].round().astype(int), 0]
+    assert inside.sum() > 500
+    assert np.corrcoef(found, truth)[0, 1] > 0.9
+    assert pickle.loads(pickle.dumps(texture)) == texture
+    io.write_mesh(tmp_path / "mesh.glb", mesh, texture)
+    assert b"image/jpeg" in (tmp_path / "mesh.glb").read_bytes()
+    io.write_mesh(tmp_path / "mesh.obj", mesh, texture)
+    assert (tmp_path / "mesh.obj").read_text().startswith("mtllib mesh.mtl\n")
+    assert "map_Kd mesh.jpg" in (tmp_path / "mesh.mtl").read_text()
+    assert (tmp_path / "mesh.jpg").read_bytes().startswith(b"\xff\xd8")
+    with pytest.raises(ValueError, match="colors of vertices only"):
+        io.write_mesh(tmp_path / "mesh.ply", mesh, texture)
+    with pytest.raises(ValueError, match="size of a texture"):
+        mvs.texture_mesh(mesh, views, max_size_px=3)
+    wrong = mvs.MeshTexture(texture.image, texture.corners[1:])
+    with pytest.raises(ValueError, match="triangles, but the mesh has"):
+        io.write_mesh(tmp_path / "mesh.glb", mesh, wrong)
+
+
 def test_options_and_progress(scene, result):
     views, _ = result
     stages = []

@@ -16,6 +16,7 @@ use crate::progress::Progress;
 use crate::report::Report;
 use crate::{files, picture};
 use epipole::stitch::render_panorama;
+use epipole_io::photo::encode_jpeg;
 use image::RgbImage;
 use serde_json::{Value, json};
 
@@ -91,7 +92,7 @@ fn encoder(arguments: &Arguments) -> Result<Encode, Failure> {
         .to_ascii_lowercase();
     match ending.to_str() {
         Some("png") => Ok(picture::png),
-        Some("jpg" | "jpeg") => Ok(picture::jpeg),
+        Some("jpg" | "jpeg") => Ok(|image| Ok(encode_jpeg(image)?)),
         _ => Err(Failure::usage(format!(
             "{} must be a .png or .jpg file",
             arguments.output.display()

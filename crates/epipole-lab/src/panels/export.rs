@@ -36,9 +36,13 @@ impl Panel for Export {
             "Inside are images/ and {}; model.html, which shows the model in any browser; points.ply with colors; \
              reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. \
              Measures are in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/; the \
-             depth of all views adds fused.ply with normals and its surface, {}.",
+             depth of all views adds fused.ply with normals and its surface, {}{}.",
             self.format.place(),
-            self.format.mesh()
+            self.format.mesh(),
+            match self.format.has_texture() {
+                true => ", with a texture of the photographs",
+                false => "",
+            }
         ));
         ui.weak(match (project.scale(), &project.document().poses) {
             (Some(_), _) => "Lengths are in meters, by the length you measured.".to_owned(),

@@ -2,12 +2,14 @@
 //! measures.
 
 use crate::common::depth::{errors, share_below};
-use crate::common::{computed, exported, finish, output, reopened, solved};
+use crate::common::{computed, exported, files_for, finish, output, reopened, solved};
 use epipole_io::cloud::read_ply;
+use epipole_io::photo::{DecodeOptions, decode_rgb};
 use epipole_lab::project::{Anchor, Blob, Measure, Project, Sample, Step};
 use epipole_lab::session::Event;
 use epipole_lab::tasks::{
-    AllViews, CloudVertex, DenseCloud, FuseViews, Query, Reduced, ReducedOf, Request, Task, compute,
+    AllViews, CloudVertex, DenseCloud, ExportFormat, FuseViews, Query, Reduced, ReducedOf, Request,
+    Task, compute,
 };
 use nalgebra::Vector3;
 use std::ops::ControlFlow;
@@ -138,6 +140,30 @@ fn the_cloud_is_saved_shown_measured_and_exported() {
     for file in ["fused.ply", "mesh.ply"] {
         assert!(readme.contains(file), "{readme}");
     }
+
+    let mut read = files_for(&project, ExportFormat::Bundler);
+    let text = String::from_utf8(read("mesh.obj").unwrap()).unwrap();
+    assert_eq!(
+        text.lines().filter(|line| line.starts_with("f ")).count(),
+        num_triangles
+    );
+    assert!(text.starts_with("mtllib mesh.mtl\n"));
+    let material = String::from_utf8(read("mesh.mtl").unwrap()).unwrap();
+    assert!(material.contains("texture.jpg"), "{material}");
+    let texture = decode_rgb(&read("texture.jpg").unwrap(), &DecodeOptions::default());
+    let texture = texture.unwrap().image;
+    let colored = texture
+        .pixels()
+        .filter(|pixel| pixel.0.iter().any(|level| *level > 40));
+    assert!(
+        colored.count() * 5 > texture.pixels().len(),
+        "{:?}",
+        texture.dimensions()
+    );
+    let mut read = files_for(&project, ExportFormat::Glb);
+    let glb = read("mesh.glb").unwrap();
+    assert!(String::from_utf8_lossy(&glb[..4096]).contains("image/jpeg"));
+    assert!(read("texture.jpg").is_none());
     project.update(Event::Show(Step::Export));
     let words = format!("{} points from all views", found.len());
     assert!(

@@ -3,14 +3,17 @@
 use super::source::{Source, or_raise, write};
 use crate::arrays::{from_rows, points3};
 use crate::images::{column, disparity, from_disparity};
+use crate::mvs::take_texture;
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
 use epipole::mvs::Mesh;
 use epipole::stereo::{DisparityImage, PointCloud};
+use epipole_io::photo::encode_jpeg;
 use epipole_io::{bundle, cloud, mesh, pose_graph};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 
 /// Python object of a cloud, `epipole.stereo.PointCloud`.
 pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
@@ -84,13 +87,67 @@ fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> 
 /// path : str or os.PathLike
 ///     Ends in ``.ply``, ``.glb`` or ``.obj``.
 /// mesh : epipole.mvs.Mesh
+/// texture : epipole.mvs.MeshTexture, optional
+///     Instead of the colors of the vertices, for ``.glb`` and ``.obj``. The material and the image
+///     of an OBJ file are written beside it, with the extensions ``.mtl`` and ``.jpg``.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     Another extension, or a triangle of a vertex that does not exist.
+///     Another extension, a texture for PLY, or a triangle of a vertex that does not exist.
 #[pyfunction]
-fn write_mesh(path: &Bound<'_, PyAny>, mesh: &Bound<'_, PyAny>) -> PyResult<()> {
+#[pyo3(signature = (path, mesh, texture=None))]
+fn write_mesh(
+    path: &Bound<'_, PyAny>,
+    mesh: &Bound<'_, PyAny>,
+    texture: Option<&Bound<'_, PyAny>>,
+) -> PyResult<()> {
+    let mesh = take_mesh(mesh)?;
+    let texture = texture
+        .map(|texture| take_texture(texture, mesh.triangles.len()))
+        .transpose()?;
+    let name = path.str()?.to_string();
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((&name, ""));
+    let bytes = match (ending.to_lowercase().as_str(), &texture) {
+        ("ply", None) => mesh::write_mesh_ply(&mesh),
+        ("glb", None) => mesh::write_mesh_glb(&mesh),
+        ("obj", None) => mesh::write_mesh_obj(&mesh).into_bytes(),
+        ("glb", Some(texture)) => {
+            let image = or_raise(encode_jpeg(&texture.image))?;
+            or_raise(mesh::write_textured_glb(&mesh, texture, &image))?
+        }
+        ("obj", Some(texture)) => {
+            let beside = ["mtl", "jpg"].map(|ending| format!("{stem}.{ending}"));
+            let files = beside.each_ref().map(|name| {
+                let file = name.rsplit(['/', '\\']).next();
+                file.unwrap_or_default()
+            });
+            let [text, material] = mesh::write_textured_obj(&mesh, texture, files);
+            let image = or_raise(encode_jpeg(&texture.image))?;
+            write(
+                PyString::new(path.py(), &beside[0]).as_any(),
+                material.as_bytes(),
+            )?;
+            write(PyString::new(path.py(), &beside[1]).as_any(), &image)?;
+            text.into_bytes()
+        }
+        ("ply", Some(_)) => {
+            let message = "texture: PLY files have colors of vertices only: write .glb or .obj";
+            return Err(PyValueError::new_err(message));
+        }
+        _ => {
+            let message = format!("path: {name} does not end in .ply, .glb or .obj");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    write(path, &bytes)
+}
+
+/// A mesh whose triangles have vertices that exist.
+///
+/// # Errors
+/// Another object, and a triangle of a vertex that does not exist.
+pub(crate) fn take_mesh(mesh: &Bound<'_, PyAny>) -> PyResult<Mesh> {
     let vertices = take_cloud("mesh.vertices", &mesh.getattr("vertices")?)?;
     let triangles: Vec<[u32; 3]> = mesh
         .getattr("triangles")?
@@ -105,21 +162,10 @@ fn write_mesh(path: &Bound<'_, PyAny>, mesh: &Bound<'_, PyAny>) -> PyResult<()> 
         let message = format!("mesh.triangles: there is no vertex {index}, only {count} vertices");
         return Err(PyValueError::new_err(message));
     }
-    let mesh = Mesh {
+    Ok(Mesh {
         vertices,
         triangles,
-    };
-    let name = path.str()?.to_string();
-    let bytes = match name.rsplit('.').next().map(str::to_lowercase).as_deref() {
-        Some("ply") => mesh::write_mesh_ply(&mesh),
-        Some("glb") => mesh::write_mesh_glb(&mesh),
-        Some("obj") => mesh::write_mesh_obj(&mesh).into_bytes(),
-        _ => {
-            let message = format!("path: {name} does not end in .ply, .glb or .obj");
-            return Err(PyValueError::new_err(message));
-        }
-    };
-    write(path, &bytes)
+    })
 }
 
 /// A cloud, or an array of points.

@@ -11,7 +11,7 @@ mod rig;
 mod source;
 mod trajectories;
 
-pub(crate) use clouds::give_cloud;
+pub(crate) use clouds::{give_cloud, take_mesh};
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

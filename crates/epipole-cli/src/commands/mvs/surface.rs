@@ -3,7 +3,6 @@
 use super::arguments::{Arguments, MeshFormat};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::picture::jpeg;
 use crate::report::Report;
 use epipole::mvs::{
     DepthMap, Mesh, MeshTexture, MvsView, TextureOptions, mesh_depth_maps, texture_mesh,
@@ -13,6 +12,7 @@ use epipole_io::mesh::{
     write_mesh_glb, write_mesh_obj, write_mesh_ply, write_textured_glb, write_textured_obj,
 };
 use epipole_io::model::Model;
+use epipole_io::photo::encode_jpeg;
 use std::path::PathBuf;
 
 /// Progress when the mesh is known.
@@ -74,11 +74,11 @@ impl Surface {
     /// Names and contents of the files, that of the mesh first.
     ///
     /// # Errors
-    /// As [`Model::to_html`] and [`jpeg`].
+    /// As [`Model::to_html`] and [`encode_jpeg`].
     pub(super) fn files(&self, model: &Model) -> Result<Vec<(&'static str, Vec<u8>)>, Failure> {
         let mesh = &self.mesh;
         if let Some(texture) = &self.texture {
-            let image = jpeg(&texture.image)?;
+            let image = encode_jpeg(&texture.image)?;
             return Ok(match self.format {
                 MeshFormat::Obj => {
                     let [material_file, image_file] = ["mesh.mtl", "texture.jpg"];

@@ -5,10 +5,11 @@ use crate::failure::Failure;
 use crate::matrices::Motion;
 use crate::output_folder::OutputFolder;
 use crate::output_folder::colmap::check_foreign;
-use crate::{photo, picture};
+use crate::photo;
 use epipole::camera::PosedCamera;
 use epipole::sfm::{Photo, Reconstruction, SfmImage};
 use epipole_io::model::{Model, ModelFormat};
+use epipole_io::photo::encode_jpeg;
 use serde::Serialize;
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -70,7 +71,7 @@ impl<'a> Pictures<'a> {
         for ((used, photo), name) in self.used.iter().zip(photos).zip(&self.names) {
             let bytes = match used.is_as_stored {
                 true => photo::bytes(&used.listed.path)?,
-                false => picture::jpeg(&photo.image)?,
+                false => encode_jpeg(&photo.image)?,
             };
             output.write(&format!("{FOLDER}/{name}"), &bytes)?;
         }

@@ -86,6 +86,11 @@ impl ExportFormat {
         }
     }
 
+    /// Whether its file of the surface has a texture.
+    pub fn has_texture(self) -> bool {
+        matches!(self, Self::Glb | Self::Bundler)
+    }
+
     /// Returns the file of the surface of all views in the zip file.
     pub fn mesh(self) -> &'static str {
         match self {

@@ -12,5 +12,7 @@ mod frame;
 mod model;
 #[cfg(feature = "files")]
 mod summary;
+#[cfg(feature = "files")]
+mod texture;
 
 pub use contents::{Export, ExportFormat, Measured, Recipe};

@@ -2,7 +2,7 @@
 
 use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
-use super::{cloud, depth, summary};
+use super::{cloud, depth, summary, texture};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
@@ -10,9 +10,9 @@ use crate::tasks::project_file::Packed;
 use crate::tasks::reconstruction::ImagePoints;
 use crate::tasks::task::{Monitor, Run};
 use epipole_io::model::{Model, ModelFormat};
+use epipole_io::photo::encode_jpeg;
 use epipole_io::trajectory::{TrajectoryFormat, write_trajectory};
-use image::codecs::jpeg::JpegEncoder;
-use image::{DynamicImage, ImageFormat};
+use image::{DynamicImage, ImageFormat, RgbImage};
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
@@ -32,6 +32,9 @@ impl Run for Export {
             .get(export.component as usize)
             .ok_or("there is no reconstruction to export")?;
         check_indices(export)?;
+        let surface = cloud::surface(export);
+        let needs_texture = texture::is_needed(export, &surface);
+        let mut photos = Vec::new();
         let mut archive = Archive::new();
         let mut images = export
             .images
@@ -46,6 +49,9 @@ impl Run for Export {
             }
             archive.add(&format!("images/{name}"), &bytes)?;
             image.name = name;
+            if needs_texture {
+                photos.push(pixels(photograph, &mut read)?);
+            }
         }
         let sizes = (export.images.iter()).map(|image| (image.camera.width, image.camera.height));
         let mut model = found.to_core(sizes)?;
@@ -55,7 +61,11 @@ impl Run for Export {
         }
         let files = Model::from_reconstruction(&model, &images);
         add_model(&mut archive, export.format, &files)?;
-        let surface = cloud::surface(export);
+        let texture = match needs_texture {
+            true => texture::texture(&model, &surface, &photos, monitor)?,
+            false => None,
+        };
+        drop(photos);
         let page = files.to_html(&surface).map_err(|error| error.to_string())?;
         archive.add("model.html", &page)?;
         archive.add("points.ply", &files.to_ply())?;
@@ -65,7 +75,7 @@ impl Run for Export {
             path.map_err(|e| e.to_string())?.as_bytes(),
         )?;
         depth::add(&mut archive, export)?;
-        cloud::add(&mut archive, export, &surface)?;
+        cloud::add(&mut archive, export, &surface, texture.as_ref())?;
         let json = summary::json(export, &images, &model);
         archive.add("reconstruction.json", json.as_bytes())?;
         if !export.measures.is_empty() {
@@ -128,22 +138,34 @@ fn picture(
     photograph: &Packed,
     read: &mut dyn FnMut(&Packed) -> Result<Photograph, String>,
 ) -> Result<(String, Vec<u8>), String> {
-    let used = photograph.used.as_ref();
-    let used = used.ok_or_else(|| format!("{} has no pixels", photograph.name))?;
-    if let (Source::File(bytes), true) = (&photograph.source, used.as_given) {
+    if let Source::File(bytes) = &photograph.source
+        && used(photograph)?.as_given
+    {
         return Ok((photograph.name.clone(), bytes.to_vec()));
     }
-    let once_more;
-    let used = match used.has_pixels() {
-        true => used,
-        false => {
-            once_more = read(photograph)?;
-            &once_more
-        }
-    };
+    let image = pixels(photograph, read)?;
     match &photograph.source {
-        Source::File(_) => Ok((renamed(&photograph.name, "jpg"), jpeg(used)?)),
-        Source::Rendered(..) => Ok((photograph.name.clone(), png(used)?)),
+        Source::File(_) => {
+            let bytes = encode_jpeg(&image).map_err(|error| error.to_string())?;
+            Ok((renamed(&photograph.name, "jpg"), bytes))
+        }
+        Source::Rendered(..) => Ok((photograph.name.clone(), png(image)?)),
+    }
+}
+
+fn used(photograph: &Packed) -> Result<&Photograph, String> {
+    let used = photograph.used.as_ref();
+    used.ok_or_else(|| format!("{} has no pixels", photograph.name))
+}
+
+/// Returns the pixels of a photograph as it was reconstructed.
+fn pixels(
+    photograph: &Packed,
+    read: &mut dyn FnMut(&Packed) -> Result<Photograph, String>,
+) -> Result<RgbImage, String> {
+    match used(photograph)? {
+        used if used.has_pixels() => used.to_image(),
+        _ => read(photograph)?.to_image(),
     }
 }
 
@@ -152,17 +174,9 @@ fn renamed(name: &str, extension: &str) -> String {
     format!("{stem}.{extension}")
 }
 
-fn jpeg(photograph: &Photograph) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    JpegEncoder::new_with_quality(&mut bytes, 95)
-        .encode_image(&photograph.to_image()?)
-        .map_err(|error| error.to_string())?;
-    Ok(bytes)
-}
-
-fn png(photograph: &Photograph) -> Result<Vec<u8>, String> {
+fn png(image: RgbImage) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
-    DynamicImage::from(photograph.to_image()?)
+    DynamicImage::from(image)
         .write_to(&mut bytes, ImageFormat::Png)
         .map_err(|error| error.to_string())?;
     Ok(bytes.into_inner())

@@ -126,8 +126,12 @@ pub(super) fn readme(export: &Export) -> String {
         );
         if all_views.triangles().len() > 0 {
             let name = export.format.mesh();
+            let colors = match export.format.has_texture() {
+                true => "a texture of the photographs",
+                false => "colors",
+            };
             text.push_str(&format!(
-                "{name:<20} their surface: triangles with normals and colors, in the same frame\n"
+                "{name:<20} their surface: triangles with normals and {colors}, in the same frame\n"
             ));
         }
     }

@@ -1,0 +1,97 @@
+//! Textures of meshes.
+
+use super::view::MvsView;
+use crate::images::{from_rgb, rgb};
+use crate::io::take_mesh;
+use crate::record::record;
+use crate::{options, progress};
+use epipole::mvs;
+use epipole::nalgebra::Point2;
+use numpy::prelude::*;
+use numpy::{PyArray1, PyArray3};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+record! {
+    /// Texture of a mesh: an image, and a pixel of it for each corner of each triangle.
+    "epipole.mvs" MeshTexture {
+        /// Red, green and blue, uint8 of shape (H, W, 3).
+        image: Py<PyArray3<u8>>,
+        /// Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2).
+        corners: Py<PyArray3<f32>>,
+    }
+}
+
+/// Textures a mesh with the photos.
+///
+/// Each triangle takes the photo that shows it largest, with few seams, and colors are adjusted to
+/// agree along seams.
+///
+/// Parameters
+/// ----------
+/// mesh : Mesh
+/// views : list of MvsView
+///     Those of `prepare_views`.
+/// progress : callable, optional
+///     Called with the stage and the completed share.
+/// **options : TextureOptions
+///
+/// Returns
+/// -------
+/// MeshTexture
+///
+/// Raises
+/// ------
+/// epipole.TooFewError
+///     No views or no triangles.
+/// ValueError
+///     Option out of range, or triangle of a vertex that does not exist.
+#[pyfunction]
+#[pyo3(signature = (mesh, views, *, progress=None, **options))]
+pub(super) fn texture_mesh(
+    py: Python<'_>,
+    mesh: &Bound<'_, PyAny>,
+    views: Vec<MvsView>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<MeshTexture> {
+    let options = options::read(options)?;
+    let mesh = take_mesh(mesh)?;
+    let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
+    let texture = progress::run(py, progress, |monitor| {
+        mvs::texture_mesh(&mesh, &views, &options, monitor)
+    })?;
+    let corners = texture.corners.as_flattened().iter();
+    let flat: Vec<f32> = corners.flat_map(|pixel| [pixel.x, pixel.y]).collect();
+    let corners = PyArray1::from_vec(py, flat).reshape([texture.corners.len(), 3, 2])?;
+    Ok(MeshTexture {
+        image: from_rgb(py, texture.image)?.unbind(),
+        corners: corners.unbind(),
+    })
+}
+
+/// The texture of a mesh with this number of triangles.
+///
+/// # Errors
+/// An image that is none, or another shape of corners.
+pub(crate) fn take_texture(
+    texture: &Bound<'_, PyAny>,
+    num_triangles: usize,
+) -> PyResult<mvs::MeshTexture> {
+    let image = rgb("texture.image", &texture.getattr("image")?)?;
+    let corners: Vec<[[f32; 2]; 3]> = (texture.getattr("corners")?)
+        .call_method0("tolist")?
+        .extract()?;
+    if corners.len() != num_triangles {
+        return Err(PyValueError::new_err(format!(
+            "texture.corners: {} triangles, but the mesh has {num_triangles}",
+            corners.len()
+        )));
+    }
+    let corners = corners.into_iter().map(|list| list.map(Point2::from));
+    Ok(mvs::MeshTexture {
+        image,
+        corners: corners.collect(),
+    })
+}
