@@ -14,7 +14,6 @@ use epipole::image::RgbImage;
 use epipole::mvs;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-pub(crate) use texture::take_texture;
 use view::MvsView;
 
 /// Undistorts and downscales photos, and chooses the neighbors and the depth range of each.

@@ -13,6 +13,7 @@ from epipole.camera import Intrinsics
 from epipole.camera import RigidTransform
 from epipole.math import Geodetic
 from epipole.mvs import Mesh
+from epipole.mvs import MeshTexture
 from epipole.sfm import BalProblem
 from epipole.sfm import PoseGraph
 from epipole.sfm import Reconstruction
@@ -805,20 +806,6 @@ def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> No
     OSError
         File that cannot be written.
     """
-def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
-    """Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
-
-    Parameters
-    ----------
-    path : str or os.PathLike
-        Ends in ``.ply``, ``.glb`` or ``.obj``.
-    mesh : epipole.mvs.Mesh
-
-    Raises
-    ------
-    ValueError
-        Another extension, or a triangle of a vertex that does not exist.
-    """
 def read_pfm(source: str | os.PathLike[str] | bytes) -> NDArray[np.float32]:
     """Reads the disparities of a gray PFM file.
 
@@ -931,6 +918,27 @@ def write_bal(path: str | os.PathLike[str], problem: BalProblem) -> None:
     OSError
         File that cannot be written.
     """
+def write_mesh(
+    path: str | os.PathLike[str],
+    mesh: Mesh,
+    texture: MeshTexture | None = None,
+) -> None:
+    """Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Ends in ``.ply``, ``.glb`` or ``.obj``.
+    mesh : epipole.mvs.Mesh
+    texture : epipole.mvs.MeshTexture, optional
+        Instead of the colors of the vertices, for ``.glb`` and ``.obj``. The material and the image
+        of an OBJ file are written beside it, with the extensions ``.mtl`` and ``.jpg``.
+
+    Raises
+    ------
+    ValueError
+        Another extension, a texture for PLY, or a triangle of a vertex that does not exist.
+    """
 def read_matches(
     source: str | os.PathLike[str] | bytes,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -1007,14 +1015,16 @@ def write_matches(
     ratios: ArrayLike | None = None,
     layout: str = 'text',
 ) -> None:
-    """Writes matches: ``u1 v1 u2 v2 distance ratio`` a line.
+    """Writes matches: ``u1 v1 u2 v2 distance ratio`` a line, or ``u1 v1 u2 v2`` without ``distances``
+    and ``ratios``.
 
     Parameters
     ----------
     path : str or os.PathLike
     pixels1, pixels2 : array_like, shape (N, 2)
     distances, ratios : array_like, shape (N,), optional
-        Distance of the descriptors, and its ratio to that of the second nearest. 0 if not given.
+        Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the
+        other is given.
     layout : {"text", "csv"}, optional
 
     Raises

@@ -15,11 +15,13 @@ from epipole.stereo import PointCloud
 __all__ = [
     "DepthMap",
     "Mesh",
+    "MeshTexture",
     "MvsView",
     "estimate_depth_maps",
     "fuse_depth_maps",
     "mesh_depth_maps",
     "prepare_views",
+    "texture_mesh",
 ]
 
 @final
@@ -242,4 +244,57 @@ def mesh_depth_maps(
         No pixel has a depth.
     ValueError
         Voxels too small for the scene.
+    """
+@final
+class MeshTexture:
+    """Texture of a mesh: an image, and a pixel of it for each corner of each triangle.
+
+    Parameters
+    ----------
+    image
+        Red, green and blue, uint8 of shape (H, W, 3).
+    corners
+        Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2).
+    """
+    def __new__(cls, image: NDArray[np.uint8], corners: NDArray[np.float32]) -> MeshTexture: ...
+    @property
+    def image(self) -> NDArray[np.uint8]:
+        """Red, green and blue, uint8 of shape (H, W, 3)."""
+    @property
+    def corners(self) -> NDArray[np.float32]:
+        """Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2)."""
+    def __eq__(self, other: object, /) -> bool: ...
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+def texture_mesh(
+    mesh: Mesh,
+    views: Sequence[MvsView],
+    *,
+    progress: Callable[[str, float], object] | None = None,
+    **options: Unpack[option_types.TextureOptions],
+) -> MeshTexture:
+    """Textures a mesh with the photos.
+
+    Each triangle takes the photo that shows it largest, with few seams, and colors are adjusted to
+    agree along seams.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    views : list of MvsView
+        Those of `prepare_views`.
+    progress : callable, optional
+        Called with the stage and the completed share.
+    **options : TextureOptions
+
+    Returns
+    -------
+    MeshTexture
+
+    Raises
+    ------
+    epipole.TooFewError
+        No views or no triangles.
+    ValueError
+        Option out of range, or triangle of a vertex that does not exist.
     """

@@ -262,6 +262,11 @@ class StructureTensorOptions(TypedDict, total=False):
     border: Literal["replicate", "reflect101"] | Mapping[str, Any]
 
 
+class TextureOptions(TypedDict, total=False):
+    max_size_px: int  # 8192
+    seam_cost: float  # 0.5
+
+
 class TrackOptions(TypedDict, total=False):
     half_window: int  # 10
     num_levels: int  # 4

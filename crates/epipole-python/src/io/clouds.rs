@@ -3,17 +3,13 @@
 use super::source::{Source, or_raise, write};
 use crate::arrays::{from_rows, points3};
 use crate::images::{column, disparity, from_disparity};
-use crate::mvs::take_texture;
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
-use epipole::mvs::Mesh;
 use epipole::stereo::{DisparityImage, PointCloud};
-use epipole_io::photo::encode_jpeg;
-use epipole_io::{bundle, cloud, mesh, pose_graph};
+use epipole_io::{bundle, cloud, pose_graph};
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::{PyUserWarning, PyValueError};
+use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
-use pyo3::types::PyString;
 
 /// Python object of a cloud, `epipole.stereo.PointCloud`.
 pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
@@ -80,96 +76,8 @@ fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> 
     write(path, &cloud::write_ply(&take_cloud("cloud", cloud)?))
 }
 
-/// Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
-///
-/// Parameters
-/// ----------
-/// path : str or os.PathLike
-///     Ends in ``.ply``, ``.glb`` or ``.obj``.
-/// mesh : epipole.mvs.Mesh
-/// texture : epipole.mvs.MeshTexture, optional
-///     Instead of the colors of the vertices, for ``.glb`` and ``.obj``. The material and the image
-///     of an OBJ file are written beside it, with the extensions ``.mtl`` and ``.jpg``.
-///
-/// Raises
-/// ------
-/// ValueError
-///     Another extension, a texture for PLY, or a triangle of a vertex that does not exist.
-#[pyfunction]
-#[pyo3(signature = (path, mesh, texture=None))]
-fn write_mesh(
-    path: &Bound<'_, PyAny>,
-    mesh: &Bound<'_, PyAny>,
-    texture: Option<&Bound<'_, PyAny>>,
-) -> PyResult<()> {
-    let mesh = take_mesh(mesh)?;
-    let texture = texture
-        .map(|texture| take_texture(texture, mesh.triangles.len()))
-        .transpose()?;
-    let name = path.str()?.to_string();
-    let (stem, ending) = name.rsplit_once('.').unwrap_or((&name, ""));
-    let bytes = match (ending.to_lowercase().as_str(), &texture) {
-        ("ply", None) => mesh::write_mesh_ply(&mesh),
-        ("glb", None) => mesh::write_mesh_glb(&mesh),
-        ("obj", None) => mesh::write_mesh_obj(&mesh).into_bytes(),
-        ("glb", Some(texture)) => {
-            let image = or_raise(encode_jpeg(&texture.image))?;
-            or_raise(mesh::write_textured_glb(&mesh, texture, &image))?
-        }
-        ("obj", Some(texture)) => {
-            let beside = ["mtl", "jpg"].map(|ending| format!("{stem}.{ending}"));
-            let files = beside.each_ref().map(|name| {
-                let file = name.rsplit(['/', '\\']).next();
-                file.unwrap_or_default()
-            });
-            let [text, material] = mesh::write_textured_obj(&mesh, texture, files);
-            let image = or_raise(encode_jpeg(&texture.image))?;
-            write(
-                PyString::new(path.py(), &beside[0]).as_any(),
-                material.as_bytes(),
-            )?;
-            write(PyString::new(path.py(), &beside[1]).as_any(), &image)?;
-            text.into_bytes()
-        }
-        ("ply", Some(_)) => {
-            let message = "texture: PLY files have colors of vertices only: write .glb or .obj";
-            return Err(PyValueError::new_err(message));
-        }
-        _ => {
-            let message = format!("path: {name} does not end in .ply, .glb or .obj");
-            return Err(PyValueError::new_err(message));
-        }
-    };
-    write(path, &bytes)
-}
-
-/// A mesh whose triangles have vertices that exist.
-///
-/// # Errors
-/// Another object, and a triangle of a vertex that does not exist.
-pub(crate) fn take_mesh(mesh: &Bound<'_, PyAny>) -> PyResult<Mesh> {
-    let vertices = take_cloud("mesh.vertices", &mesh.getattr("vertices")?)?;
-    let triangles: Vec<[u32; 3]> = mesh
-        .getattr("triangles")?
-        .call_method0("tolist")?
-        .extract()?;
-    let count = vertices.points.len();
-    if let Some(index) = triangles
-        .as_flattened()
-        .iter()
-        .find(|&&n| n as usize >= count)
-    {
-        let message = format!("mesh.triangles: there is no vertex {index}, only {count} vertices");
-        return Err(PyValueError::new_err(message));
-    }
-    Ok(Mesh {
-        vertices,
-        triangles,
-    })
-}
-
 /// A cloud, or an array of points.
-fn take_cloud(argument: &str, cloud: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
+pub(super) fn take_cloud(argument: &str, cloud: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
     let (points, is_cloud) = match cloud.getattr_opt("points")? {
         Some(points) => (points, true),
         None => (cloud.clone(), false),
@@ -365,7 +273,6 @@ fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(read_ply, module)?)?;
     module.add_function(wrap_pyfunction!(write_ply, module)?)?;
-    module.add_function(wrap_pyfunction!(write_mesh, module)?)?;
     module.add_function(wrap_pyfunction!(read_pfm, module)?)?;
     module.add_function(wrap_pyfunction!(write_pfm, module)?)?;
     module.add_function(wrap_pyfunction!(write_png16, module)?)?;

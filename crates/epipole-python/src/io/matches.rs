@@ -113,8 +113,8 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
 /// path : str or os.PathLike
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// distances, ratios : array_like, shape (N,), optional
-///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the other
-///     is given.
+///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the
+///     other is given.
 /// layout : {"text", "csv"}, optional
 ///
 /// Raises

@@ -5,13 +5,15 @@
 mod cameras;
 mod clouds;
 mod matches;
+mod meshes;
 mod models;
 mod photos;
 mod rig;
 mod source;
 mod trajectories;
 
-pub(crate) use clouds::{give_cloud, take_mesh};
+pub(crate) use clouds::give_cloud;
+pub(crate) use meshes::take_mesh;
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -19,6 +21,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     photos::register(module)?;
     models::register(module)?;
     clouds::register(module)?;
+    meshes::register(module)?;
     matches::register(module)?;
     trajectories::register(module)
 }

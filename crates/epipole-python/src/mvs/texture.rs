@@ -1,15 +1,13 @@
 //! Textures of meshes.
 
 use super::view::MvsView;
-use crate::images::{from_rgb, rgb};
+use crate::images::from_rgb;
 use crate::io::take_mesh;
 use crate::record::record;
 use crate::{options, progress};
 use epipole::mvs;
-use epipole::nalgebra::Point2;
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray3};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -68,30 +66,5 @@ pub(super) fn texture_mesh(
     Ok(MeshTexture {
         image: from_rgb(py, texture.image)?.unbind(),
         corners: corners.unbind(),
-    })
-}
-
-/// The texture of a mesh with this number of triangles.
-///
-/// # Errors
-/// An image that is none, or another shape of corners.
-pub(crate) fn take_texture(
-    texture: &Bound<'_, PyAny>,
-    num_triangles: usize,
-) -> PyResult<mvs::MeshTexture> {
-    let image = rgb("texture.image", &texture.getattr("image")?)?;
-    let corners: Vec<[[f32; 2]; 3]> = (texture.getattr("corners")?)
-        .call_method0("tolist")?
-        .extract()?;
-    if corners.len() != num_triangles {
-        return Err(PyValueError::new_err(format!(
-            "texture.corners: {} triangles, but the mesh has {num_triangles}",
-            corners.len()
-        )));
-    }
-    let corners = corners.into_iter().map(|list| list.map(Point2::from));
-    Ok(mvs::MeshTexture {
-        image,
-        corners: corners.collect(),
     })
 }

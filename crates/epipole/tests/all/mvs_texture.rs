@@ -12,7 +12,7 @@ const SIDE: u32 = 200;
 
 /// Color of a point on the wall z = 0: smooth waves.
 fn wall_color(x: f64, y: f64) -> Vector3<f64> {
-    let wave = |a: f64, b: f64| 128.0 + 50.0 * (a * x + b * y).sin();
+    let wave = |a: f64, b: f64| 128.0 + 50.0 * libm::sin(a * x + b * y);
     Vector3::new(wave(9.0, 2.0), wave(-3.0, 7.0), wave(4.0, 5.0))
 }
 
@@ -43,7 +43,7 @@ fn wall(half: f64, z: f64, cells: u32) -> Mesh {
 fn view(
     eye: Point3<f64>,
     gain: f64,
-    seen: &dyn Fn(&Point3<f64>, &Vector3<f64>) -> Vector3<f64>,
+    seen: impl Fn(&Point3<f64>, &Vector3<f64>) -> Vector3<f64>,
 ) -> MvsView {
     let camera = PosedCamera {
         camera: Camera::pinhole(Intrinsics::centered(220.0, SIDE, SIDE).unwrap(), SIDE, SIDE),
@@ -110,7 +110,7 @@ fn eyes() -> [Point3<f64>; 3] {
 #[test]
 fn the_texture_has_the_colors_of_the_surface() {
     let mesh = wall(0.7, 0.0, 24);
-    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, &of_wall)).into();
+    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, of_wall)).into();
     let found = texture(&mesh, &views);
     let largest = error(&mesh, &found, 1.0);
     // Interpolation of waves of some 70 pixels, and rounding.
@@ -128,7 +128,7 @@ fn photos_of_other_exposure_agree_along_seams() {
     let mesh = wall(0.7, 0.0, 24);
     let gains = [0.85, 1.0, 1.15];
     let views: Vec<MvsView> = (eyes().iter().zip(gains))
-        .map(|(eye, gain)| view(*eye, gain, &of_wall))
+        .map(|(eye, gain)| view(*eye, gain, of_wall))
         .collect();
     let found = texture(&mesh, &views);
     // Colors on both sides of each edge, where it is in two pieces.
@@ -180,7 +180,7 @@ fn hidden_surfaces_take_no_color_of_those_before_them() {
             false => blue,
         }
     };
-    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, &seen)).into();
+    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, seen)).into();
     let found = texture(&mesh, &views);
     let is_red = |triangle: usize| color(&found, triangle, [0.4, 0.3, 0.3]).x > 128.0;
     let wrong = (0..back).filter(|&triangle| is_red(triangle)).count();
@@ -211,7 +211,7 @@ fn hidden_surfaces_take_no_color_of_those_before_them() {
 fn a_mesh_that_no_photo_shows_has_one_color() {
     let mut mesh = wall(0.5, -9.0, 4);
     mesh.vertices.colors = vec![[10, 20, 30]; mesh.vertices.points.len()];
-    let views = [view(eyes()[1], 1.0, &of_wall)];
+    let views = [view(eyes()[1], 1.0, of_wall)];
     let found = texture(&mesh, &views);
     assert_eq!(
         color(&found, 7, [0.2, 0.4, 0.4]),
@@ -221,7 +221,7 @@ fn a_mesh_that_no_photo_shows_has_one_color() {
 
 #[test]
 fn bad_input_is_refused() {
-    let views = [view(eyes()[0], 1.0, &of_wall)];
+    let views = [view(eyes()[0], 1.0, of_wall)];
     let options = TextureOptions::default();
     let run = |mesh: &Mesh, views: &[MvsView], options: &TextureOptions| {
         texture_mesh(mesh, views, options, &mut ())
