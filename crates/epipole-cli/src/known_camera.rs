@@ -24,15 +24,15 @@ const MOST_UNSEEN: f64 = 0.75;
 pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
     let share = lens::unseen_share(camera);
     let sentence = format!(
-        "the lens of --camera bends no ray to {:.0}% of its photographs: its model folds before it reaches there",
+        "the lens model of --camera has no ray for {:.0}% of the image, where it folds",
         100.0 * share
     );
     if share > MOST_UNSEEN {
-        let advice = "calibrate once more, with boards up to the edges, or with another --model";
+        let advice = "calibrate again with boards up to the edges, or with another --model";
         return Err(Failure::new("degenerate", format!("{sentence}; {advice}")));
     }
     if share > MUCH_UNSEEN {
-        context.warn(&format!("{sentence}; what is seen there is left out"));
+        context.warn(&format!("{sentence}; pixels there are left out"));
     }
     Ok(())
 }
@@ -50,11 +50,11 @@ pub(crate) fn tell_of_others(
         return;
     };
     let why = match (*height, *width) == (camera.width, camera.height) {
-        true => "stands upright, and its file does not say how it was turned",
+        true => "is upright, and its file has no orientation",
         false => "has another size",
     };
     context.warn(&format!(
-        "the camera of --camera is used for {} of {num_photos} photographs: it was calibrated for {} × {}, and {name}, \
+        "the camera of --camera is used for {} of {num_photos} images: it was calibrated for {} × {}, and {name}, \
          {width} × {height}, {why}",
         num_photos - others.len(),
         camera.width,
@@ -123,7 +123,7 @@ impl CameraFile {
             return Err(Failure::new(
                 "size-mismatch",
                 format!(
-                    "the camera of --camera was calibrated for {} × {}, and neither photograph has this size",
+                    "the camera of --camera was calibrated for {} × {}, and neither image has this size",
                     camera.width, camera.height
                 ),
             ));
@@ -161,7 +161,7 @@ pub(crate) fn warn_of_unseen(
     let num_unseen = num_matches - seen.count();
     if num_unseen > 0 {
         context.warn(&format!(
-            "{num_unseen} of {num_matches} matches are left out: the lens of --camera bends no ray to where they are"
+            "{num_unseen} of {num_matches} matches are left out: the lens model of --camera has no rays there"
         ));
     }
 }

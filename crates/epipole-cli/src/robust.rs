@@ -230,7 +230,7 @@ impl RobustArguments {
         self.warn_of_stop(report.stop, drawn, required, context);
         if report.could_be_chance() {
             context.warn(&format!(
-                "the model means nothing: {} inliers are no more than wrong data would show by chance",
+                "the model is not significant: {} inliers are no more than random data would have",
                 report.num_unique_inliers
             ));
         }

@@ -25,8 +25,8 @@ pub(crate) fn find_turn(
 /// Returns a warning about a rotation that explains the inliers.
 pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
     format!(
-        "a camera that only turned explains {} of the {} inliers: whether and in which direction it \
-         moved cannot be told",
+        "a pure rotation explains {} of the {} inliers: whether and in which direction the camera \
+         moved cannot be determined",
         turn.num_explained, turn.num_inliers
     )
 }
@@ -46,8 +46,8 @@ pub(crate) fn sentence_of_other_focal(
     let turn = find_turn_and_focal(pixels1, pixels2, cameras, inliers, options)?;
     Ok(turn.map(|turn| {
         format!(
-            "a camera that only turned, by {:.1}° and with a focal length near {:.0} px, explains {} of the {} \
-             inliers: then there is no plane, and no depth to be had",
+            "a pure rotation by {:.1}° with a focal length near {:.0} px also explains {} of the {} inliers: \
+             then there is no plane, and no depth",
             turn.cam2_from_cam1.rotation.angle().to_degrees(),
             turn.focal_factor * cameras[0].intrinsics.fu_px(),
             turn.num_explained,
@@ -82,7 +82,7 @@ pub(crate) fn left_open_by_homography(
         let kept: Vec<Point2<f64>> = kept.map(|(pixel, _)| *pixel).collect();
         if let Some(num_near) = num_near_line(&kept, ransac) {
             return Ok(Some(format!(
-                "{num_near} of the {} inliers lie on one line in image {image}, but for noise: beside it the homography is \
+                "{num_near} of the {} inliers are collinear in image {image}, within the noise: beside their line the homography is \
                  not determined",
                 kept.len()
             )));
@@ -137,15 +137,15 @@ fn sentence_of_degeneracy(found: &Degeneracy) -> String {
             num_unmoved,
             num_inliers,
         } => format!(
-            "{num_unmoved} of the {num_inliers} inliers are where they were in image 1, but for noise: the \
-             camera hardly moved, or the matches are of something that moves with it"
+            "{num_unmoved} of the {num_inliers} inliers are at the same pixels in both images, within the noise: the \
+             camera hardly moved, or the matches are on an object that moves with it"
         ),
         Degeneracy::Homography {
             num_explained,
             num_inliers,
         } => format!(
             "a homography explains {num_explained} of the {num_inliers} inliers: they show a plane, or the camera \
-             only turned, and the fundamental matrix is not determined"
+             only rotated, and the fundamental matrix is not determined"
         ),
     }
 }

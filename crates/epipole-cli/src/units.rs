@@ -18,8 +18,8 @@ pub(crate) fn warn_of_shares(pixels: &[&[Point2<f64>]], max_error_px: f64, conte
     let reach = all.map(|pixel| pixel.coords.amax()).fold(0.0, f64::max);
     if reach > 0.0 && reach <= SHARES && max_error_px > reach / 10.0 {
         context.warn(&format!(
-            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
-             Multiply them by its size, or give a --max-error-px of their unit"
+            "all coordinates are within ± {reach:.2}: they look like fractions of the image or rays, not pixels. \
+             Multiply them by the size of the image, or give a --max-error-px of their unit"
         ));
     }
 }
@@ -33,8 +33,8 @@ pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Co
         .fold(0.0, f64::max);
     if reach <= SHARES && k.fu_px() > 10.0 * SHARES {
         context.warn(&format!(
-            "no u or v is beyond ± {reach:.2}, which are no pixels: they look like shares of the image or like rays. \
-             Multiply them by its size, or give --k 1,1,0,0 with a small \
+            "all coordinates are within ± {reach:.2}: they look like fractions of the image or rays, not pixels. \
+             Multiply them by the size of the image, or give --k 1,1,0,0 with a small \
              --max-error-px for rays"
         ));
     }
@@ -44,8 +44,8 @@ pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Co
     };
     if let Some((most, center)) = beyond(|pixel| pixel.x).or(beyond(|pixel| pixel.y)) {
         context.warn(&format!(
-            "pixels reach to {most:.0}, and the principal point at {center:.0} is that of an image about {:.0} long: \
-             intrinsics must be of the size of the image that the pixels are from",
+            "pixels reach {most:.0}, but the principal point at {center:.0} belongs to an image of about {:.0} pixels: \
+             the intrinsics must be those of the image with the pixels",
             2.0 * center
         ));
     }

@@ -215,7 +215,7 @@ fn warn_of_scale(
     let is_other = |x: f64| x.is_finite() && !(1.0 / OTHER_UNIT..OTHER_UNIT).contains(&x);
     if is_other(scale) && is_other(ratio) {
         context.warn(&format!(
-            "the estimate has {:.3} times the size of the truth: --align sim3 aligns the scale, too",
+            "the estimate is {:.3} times as large as the truth: --align sim3 also aligns the scale",
             1.0 / ratio
         ));
     }

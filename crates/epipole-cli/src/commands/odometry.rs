@@ -221,7 +221,7 @@ impl Work<'_> {
         refined.tell_of_nothing_to_refine(&[frames.camera], self.context);
         if refined.is_given() && !options.final_adjustment {
             self.context.warn(
-                "nothing of the lens is refined with --final-adjustment=false: it is refined by all frames at the end",
+                "with --final-adjustment=false no lens parameter is refined: that is done with all frames at the end",
             );
         }
         if let Some(sentence) = sentence(guesses) {
@@ -255,8 +255,7 @@ impl Work<'_> {
                     return Err(Failure::new("size-mismatch", message).about(path));
                 }
                 if frames.lens != photo.lens {
-                    let message =
-                        "all frames must be turned as the first, but this one is turned otherwise";
+                    let message = "all frames must have the orientation of the first, but this one has another";
                     return Err(Failure::new("size-mismatch", message).about(path));
                 }
             }

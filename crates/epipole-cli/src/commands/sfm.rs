@@ -121,8 +121,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let mut report = Report::default();
     if positions.num_known > 0 && !largest.is_placed {
         context.warn(&format!(
-            "the positions of {} photographs do not say where the result stands: of those that could be placed, three \
-             that are not on one line are needed",
+            "the positions of {} images do not determine the frame of the result: three registered images that \
+             are not collinear are needed",
             positions.num_known
         ));
     }
@@ -146,9 +146,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if let (true, Some((from, to))) = (refine_focal, focals.first()) {
         if focal_determined == Some(false) {
             context.warn(&format!(
-                "these photographs do not tell the focal length: {to:.0} px may be far off, and so may all depths. Give \
-                 --focal-px or --camera, or add photographs from other sides (cameras that move along a line without \
-                 turning fit any focal length)"
+                "these images do not determine the focal length: {to:.0} px may be far off, and so may all depths. Give \
+                 --focal-px or --camera, or add images from other sides (cameras that move along a line without \
+                 rotation fit any focal length)"
             ));
         }
         let sure = match focal_determined {
@@ -227,8 +227,8 @@ fn no_start(
     };
     let farthest = reasons.iter().position(begins);
     let what = match farthest {
-        Some(_) => "no two photographs can begin a reconstruction",
-        None => "no two photographs show enough of the same thing",
+        Some(_) => "no two images can start a reconstruction",
+        None => "no two images overlap enough",
     };
     let place = farthest.unwrap_or(0);
     let reason = (result.unregistered.get(place).zip(reasons.get(place)))

@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         if photo.k.is_none() {
             let (width, height) = photo.sensor_size;
             let upright = match (height, width) == (camera.width, camera.height) {
-                true => ", and the file does not say how it was turned",
+                true => ", and the file has no orientation",
                 false => "",
             };
             let message = format!(

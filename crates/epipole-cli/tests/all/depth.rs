@@ -214,7 +214,7 @@ fn a_wall_without_texture_gives_valid_files() {
     // Paths answer from smoothness, and it is said.
     let said = String::from_utf8(crate::common::epipole(&base).stderr).unwrap();
     assert_eq!(said.matches("shows no texture").count(), 2, "{said}");
-    assert_eq!(said.matches("are the same picture").count(), 1, "{said}");
+    assert_eq!(said.matches("are the same image").count(), 1, "{said}");
 }
 
 #[test]

@@ -247,7 +247,7 @@ fn cameras_that_do_not_fit_get_a_sentence() {
     for command in ["two-view", "match"] {
         let [c, d] = small.each_ref().map(|file| path(file));
         let arguments = [command, c, d, "--camera", path(&file)];
-        fails(&folder, &arguments, 1, "neither photograph has this size");
+        fails(&folder, &arguments, 1, "neither image has this size");
         // One photograph has the camera's size; the focal length of the other is guessed, with a
         // warning.
         let output = epipole(&[command, path(&a), d, "--camera", path(&file)]);
@@ -260,6 +260,6 @@ fn cameras_that_do_not_fit_get_a_sentence() {
     };
     let file = write(&folder, &folds);
     let arguments = ["two-view", path(&a), path(&b), "--camera", path(&file)];
-    fails(&folder, &arguments, 1, "bends no ray to 9");
+    fails(&folder, &arguments, 1, "has no ray for 9");
     fails(&folder, &arguments, 1, "with another --model");
 }

@@ -143,7 +143,7 @@ fn lenses_that_cannot_be_are_refused() {
     };
     run(
         &camera_json(&[-3.0, 0.0, 0.0, 0.0]),
-        "bends no ray to 9",
+        "has no ray for 9",
         1,
         &[],
     );

@@ -292,7 +292,7 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
         "--refine-focal",
     ];
     let told = String::from_utf8(epipole(&asked).stderr).unwrap();
-    assert!(told.contains("nothing of the lens is refined"), "{told}");
+    assert!(told.contains("no lens parameter is refined"), "{told}");
     // From far away it takes several rounds.
     let (from_far_px, _) = run(&["--focal-px", "800", "--refine-focal"]);
     assert!(off(from_far_px) < off(guess_px), "{from_far_px}");

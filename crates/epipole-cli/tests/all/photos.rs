@@ -128,12 +128,7 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
         "-o",
         path(&other),
     ];
-    fails(
-        &folder,
-        &arguments,
-        1,
-        "the file does not say how it was turned",
-    );
+    fails(&folder, &arguments, 1, "the file has no orientation");
     // Structure from motion continues without the camera for that photograph, with a warning.
     let result = folder.file("result");
     let told = epipole(&[
@@ -148,7 +143,7 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
     let told = String::from_utf8(told.stderr).unwrap();
     assert!(told.contains("is used for 1 of 2 photographs"), "{told}");
     assert!(
-        told.contains("stands upright, and its file does not say"),
+        told.contains("is upright, and its file has no orientation"),
         "{told}"
     );
 }

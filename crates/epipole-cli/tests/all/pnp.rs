@@ -179,11 +179,11 @@ fn points_without_a_pose_are_refused_for_their_reason() {
         (String::new(), "there are 0 points"),
         (
             all(&|n| format!("{} 0 1", n % 2)),
-            "only 2 of the 8 points are different",
+            "only 2 of the 8 points are distinct",
         ),
         (
             all(&|n| format!("{n} {} 5", 2 * n)),
-            "all points lie on one line",
+            "all points are collinear",
         ),
         ("1 2 3 4\n".to_owned(), "line 1: here should be 5 numbers"),
         (

@@ -134,13 +134,13 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
         "0.png 1 2 3\n0.png 1 2 3\n",
         &[],
         1,
-        "line 2: this photograph had a line before",
+        "line 2: this is the second line for the image",
     );
     run(
         "a.png 1 2 3\n",
         &[],
         1,
-        "it has a line for none of the photographs",
+        "none of its lines is for one of the images",
     );
     run(
         "0.png 95 2 3\n",
@@ -183,7 +183,7 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
         "--positions",
         "exif",
     ];
-    fails(&folder, &silent, 1, "no photograph says where it was taken");
+    fails(&folder, &silent, 1, "no image has a GPS position");
 }
 
 /// Photographs of a garden in Sydney say where they were taken, some meters apart; the still life

@@ -285,15 +285,15 @@ fn photographs_that_do_not_fit_together_are_refused() {
         (vec![path(&photo)], "needs at least 2, but there is only 1"),
         (
             vec![path(&photo), path(&back)],
-            "no two photographs show enough of the same thing",
+            "no two images overlap enough",
         ),
         (
             vec![path(&blank[0]), path(&blank[1])],
-            "no two photographs show enough of the same thing; blank1.png: it has only 0 features",
+            "no two images overlap enough; blank1.png: it has only 0 features",
         ),
         (
             vec![path(&photo), path(&again)],
-            "no two photographs can begin a reconstruction; 0.png: it was taken from nearly the same place",
+            "no two images can start a reconstruction; 0.png: it was taken from nearly the same place",
         ),
         (
             vec![path(&empty)],

@@ -207,7 +207,7 @@ fn rays_without_a_point_are_told() {
         (
             vec![m, model, images[0], images[1]],
             1,
-            "both cameras are at the same place",
+            "both cameras are at the same position",
         ),
         (
             vec![m, model, images[0], images[1], "-o", "a.txt"],

@@ -34,17 +34,16 @@ pub(super) fn check(pixels: &[Point2<f64>], points: &[Point3<f64>]) -> Result<()
     }
     if num_points < MIN_POINTS {
         return too_few(format!(
-            "only {num_points} of the {rows} points are different, and a pose needs {MIN_POINTS}"
+            "only {num_points} of the {rows} points are distinct, and a pose needs {MIN_POINTS}"
         ));
     }
     if num_pixels < MIN_POINTS {
         return too_few(format!(
-            "the {rows} points are seen at only {num_pixels} different pixels, and a pose needs {MIN_POINTS}"
+            "the {rows} points are at only {num_pixels} distinct pixels, and a pose needs {MIN_POINTS}"
         ));
     }
     if are_on_a_line(points) {
-        let message =
-            "all points lie on one line: a turn about it moves no pixel, so the pose is open";
+        let message = "all points are collinear: a rotation about their line moves no pixel, so the pose is not determined";
         return Err(Failure::new("degenerate", message));
     }
     Ok(())

@@ -238,7 +238,7 @@ pub(super) fn with_focal(
     }
     if !pose.tells_focal() {
         context.warn(
-            "these points hardly tell the focal length: their depths differ too little, or their plane faces the camera",
+            "these points hardly determine the focal length: their depths differ too little, or their plane faces the camera",
         );
     }
     let errors = errors_px(

@@ -83,8 +83,8 @@ impl PositionArguments {
         let num_known = told.iter().flatten().count();
         if num_known == 0 {
             return Err(match self.is_exif() {
-                true => Failure::new("malformed", "no photograph says where it was taken"),
-                false => Failure::new("malformed", "it has a line for none of the photographs")
+                true => Failure::new("malformed", "no image has a GPS position"),
+                false => Failure::new("malformed", "none of its lines is for one of the images")
                     .about(path),
             });
         }
@@ -137,8 +137,8 @@ impl PositionArguments {
         Err(Failure::new(
             "degenerate",
             format!(
-                "all positions lie within {apart_m:.3} m, and their standard deviation is {sigma_m} m, so they say \
-                 nothing: --position-sigma-m may be smaller{degrees}"
+                "all positions lie within {apart_m:.3} m, and their standard deviation is {sigma_m} m, so they \
+                 determine nothing: --position-sigma-m may be smaller{degrees}"
             ),
         ))
     }
@@ -206,7 +206,7 @@ pub(crate) fn lines(
             sigma_m,
         };
         if lines.insert(name, line).is_some() {
-            return Err(malformed("this photograph had a line before"));
+            return Err(malformed("this is the second line for the image"));
         }
     }
     Ok(lines)

@@ -38,7 +38,7 @@ pub(super) fn check(
     context: &Context,
 ) -> Result<(), Failure> {
     if photos[0].color == photos[1].color {
-        context.warn("left and right are the same picture, so every disparity is 0");
+        context.warn("left and right are the same image, so every disparity is 0");
         return Ok(());
     }
     let (moves, scale) = moves(photos)?;

@@ -138,8 +138,8 @@ impl Overlaps {
         }
         if !moved.is_empty() {
             context.warn(&format!(
-                "the camera moved between {}: things at different distances do not fit (parallax). A plane, such as a \
-                 wall, fits with --model homography",
+                "the camera moved between {}: objects at different distances do not align (parallax). For a plane, such as \
+                 a wall, use --model homography",
                 moved.join(", ")
             ));
         }

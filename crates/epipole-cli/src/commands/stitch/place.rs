@@ -27,7 +27,7 @@ pub(super) fn photos(
     drop(progress);
     if find_focal && panorama.focal_factor.is_none() {
         context.warn(&format!(
-            "the matches do not tell the focal length, and {:.0} px is a guess: give --focal-px or --k",
+            "the matches do not determine the focal length: {:.0} px is a guess; give --focal-px or --k",
             panorama.scale_px
         ));
     }

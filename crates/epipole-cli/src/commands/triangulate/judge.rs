@@ -53,7 +53,7 @@ pub(super) fn triangulate(
     match found.first() {
         None => Err(Failure::new("too-few", "there is no match in it")),
         Some(Err(Error::Degenerate { .. })) => {
-            let message = "both cameras are at the same place, and no ray tells a depth: the camera only turned";
+            let message = "both cameras are at the same position, so rays give no depth: the camera only rotated";
             Err(Failure::new("degenerate", message))
         }
         Some(_) => Ok(found),

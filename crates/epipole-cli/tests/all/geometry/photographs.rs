@@ -351,7 +351,7 @@ fn rectified_photographs_share_their_rows() {
         let sentence = if known.is_empty() {
             "the camera hardly moved"
         } else {
-            "a camera that only turned"
+            "a pure rotation"
         };
         assert!(told.contains(sentence), "{told}");
     }
