@@ -83,7 +83,7 @@ fn recognize(text: &str) -> Result<(TrajectoryFormat, Option<Layout>)> {
         .count();
     let mut rows = lines(text).skip(num_header);
     let Some((line, content)) = rows.next() else {
-        return Err(Error::malformed("the trajectory has no poses"));
+        return Err(without_rows(text));
     };
     let named = (text.lines().take(line - 1))
         .filter_map(Columns::of_names)
@@ -134,6 +134,21 @@ fn recognize(text: &str) -> Result<(TrajectoryFormat, Option<Layout>)> {
                 "{count} values are no pose: 8 are expected of TUM (t tx ty tz qx qy qz qw) and EuRoC, 12 of KITTI"
             ),
         )),
+    }
+}
+
+/// Error for a text in which no line begins with a number.
+fn without_rows(text: &str) -> Error {
+    let mut others = lines(text).filter(|(_, content)| Columns::of_names(content).is_none());
+    match others.next() {
+        Some((line, content)) => {
+            let word = words(content).first().copied().unwrap_or_default();
+            Error::at(
+                line,
+                format!("a pose begins with a number, not with \"{word:.40}\""),
+            )
+        }
+        None => Error::malformed("the trajectory has no poses"),
     }
 }
 
@@ -244,6 +259,11 @@ mod tests {
     fn errors_name_the_line() {
         for (text, message) in [
             ("", "the trajectory has no poses"),
+            ("t,x,y,z,qx,qy,qz,qw\n", "the trajectory has no poses"),
+            (
+                "# centers\nframe1.jpg -0.55 0 -0.3\n",
+                "line 2: a pose begins with a number, not with \"frame1.jpg\"",
+            ),
             (
                 "1 2 3\n",
                 "line 1: 3 values are no pose: 8 are expected of TUM (t tx ty tz qx qy qz qw) and EuRoC, 12 of KITTI",
