@@ -4,7 +4,9 @@ use super::super::mesh::Mesh;
 use super::super::views::MvsView;
 use super::adjacency::NONE;
 use super::visibility::{Candidate, is_inside, project};
+use crate::Result;
 use crate::math::UnionFind;
+use crate::progress::{Monitor, Stage, report};
 use std::collections::VecDeque;
 
 /// Maximum number of sweeps over all triangles.
@@ -20,6 +22,9 @@ const ROUNDS: usize = 3;
 /// * `across`: neighbors of each triangle
 /// * `seam_cost`: cost of an edge between views, where the cost of a view is 0 to 1
 ///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+///
 /// Source: Waechter, Moehrle & Goesele 2014, "Let there be color! Large-scale texturing of 3D
 /// reconstructions"; by iterated conditional modes (Besag 1986).
 pub(super) fn choose(
@@ -28,20 +33,23 @@ pub(super) fn choose(
     candidates: &[Vec<Candidate>],
     across: &[[u32; 3]],
     seam_cost: f64,
-) -> Vec<Option<usize>> {
+    monitor: &mut dyn Monitor,
+) -> Result<Vec<Option<usize>>> {
     let mut labels: Vec<Option<usize>> = (candidates.iter())
         .map(|list| list.first().map(|best| best.view))
         .collect();
-    for _ in 0..MAX_SWEEPS {
+    for number in 0..MAX_SWEEPS {
+        report(monitor, Stage::Blending, number as f32 / MAX_SWEEPS as f32)?;
         if !sweep(candidates, across, seam_cost, &mut labels) {
             break;
         }
     }
     for _ in 0..ROUNDS {
+        report(monitor, Stage::Blending, 1.0)?;
         absorb_small(candidates, across, &mut labels);
     }
     spread(mesh, views, across, &mut labels);
-    labels
+    Ok(labels)
 }
 
 /// Gives each triangle its best view among those of its neighbors and its own; returns whether any

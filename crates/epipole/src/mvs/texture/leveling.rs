@@ -4,6 +4,8 @@ use super::super::mesh::Mesh;
 use super::super::views::MvsView;
 use super::adjacency::NONE;
 use super::charts::Chart;
+use crate::Result;
+use crate::progress::{Monitor, Stage, report};
 use image::RgbImage;
 use nalgebra::{Point2, Vector3};
 use std::collections::HashMap;
@@ -24,6 +26,9 @@ pub(super) type Offsets = Vec<Vec<[Vector3<f64>; 3]>>;
 /// Returns the offsets, levels of 0 to 255, that minimize differences along seams and vary smoothly
 /// in each piece.
 ///
+/// # Errors
+/// [`Error::Canceled`](crate::Error::Canceled).
+///
 /// Source: Waechter, Moehrle & Goesele 2014, section 3.4 (global adjustment); Lempitsky & Ivanov
 /// 2007, "Seamless mosaicing of image-based texture maps".
 pub(super) fn offsets(
@@ -31,9 +36,11 @@ pub(super) fn offsets(
     views: &[MvsView],
     across: &[[u32; 3]],
     charts: &[Chart],
-) -> Offsets {
+    monitor: &mut dyn Monitor,
+) -> Result<Offsets> {
+    report(monitor, Stage::Blending, 0.0)?;
     let system = System::of(mesh, views, across, charts);
-    let solution = system.solve();
+    let solution = system.solve(monitor)?;
     let of_corner = |index: &u32| solution[*index as usize];
     let of_chart = |corners: &Vec<[u32; 3]>| {
         let triangles = corners.iter();
@@ -41,7 +48,7 @@ pub(super) fn offsets(
             .map(|corners| corners.each_ref().map(of_corner))
             .collect()
     };
-    system.unknowns.iter().map(of_chart).collect()
+    Ok(system.unknowns.iter().map(of_chart).collect())
 }
 
 /// Linear least squares for one offset per vertex of each piece.
@@ -145,7 +152,10 @@ impl System {
     }
 
     /// Solves the normal equations of the three channels by conjugate gradients.
-    fn solve(&self) -> Vec<Vector3<f64>> {
+    ///
+    /// # Errors
+    /// [`Error::Canceled`](crate::Error::Canceled).
+    fn solve(&self, monitor: &mut dyn Monitor) -> Result<Vec<Vector3<f64>>> {
         let mut x = vec![Vector3::zeros(); self.num_unknowns];
         let mut residual = x.clone();
         for (pair, difference) in &self.seams {
@@ -155,7 +165,12 @@ impl System {
         let mut direction = residual.clone();
         let mut norms = dot(&residual, &residual);
         let first = norms;
-        for _ in 0..MAX_ITERATIONS {
+        for number in 0..MAX_ITERATIONS {
+            report(
+                monitor,
+                Stage::Blending,
+                number as f32 / MAX_ITERATIONS as f32,
+            )?;
             let ends = norms.iter().zip(&first);
             if ends
                 .into_iter()
@@ -177,7 +192,7 @@ impl System {
             }
             norms = next;
         }
-        x
+        Ok(x)
     }
 }
 
@@ -237,6 +252,8 @@ pub(super) fn color_at(photo: &RgbImage, pixel: &Point2<f64>) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
     use super::*;
 
     #[test]
@@ -248,7 +265,7 @@ mod tests {
             smooth: vec![[0, 1], [2, 3]],
             seams: vec![([1, 2], Vector3::new(20.0, -4.0, 0.0))],
         };
-        let offsets = system.solve();
+        let offsets = system.solve(&mut ()).unwrap();
         let expected = [-10.0, -10.0, 10.0, 10.0];
         for (offset, expected) in offsets.iter().zip(expected) {
             assert!((offset.x - expected).abs() < 0.1, "{offset}");

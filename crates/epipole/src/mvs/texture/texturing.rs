@@ -9,7 +9,7 @@ use super::options::TextureOptions;
 use super::raster::for_each_pixel;
 use super::{adjacency, labels, visibility};
 use crate::math::monitored;
-use crate::progress::{Monitor, Part, Stage, report};
+use crate::progress::{Monitor, Part, Stage};
 use crate::{Error, Result};
 use image::{Rgb, RgbImage, imageops};
 use nalgebra::{Point2, Vector2, Vector3};
@@ -52,12 +52,12 @@ pub fn texture_mesh(
     check_mesh(mesh, views)?;
     let across = adjacency::neighbors(&mesh.triangles);
     let candidates = visibility::candidates(mesh, views, &mut Part::new(monitor, 0.0, SEEN))?;
-    report(monitor, Stage::Blending, SEEN)?;
-    let labels = labels::choose(mesh, views, &candidates, &across, options.seam_cost);
-    report(monitor, Stage::Blending, CHOSEN)?;
+    let part = &mut Part::new(monitor, SEEN, CHOSEN);
+    let labels = labels::choose(mesh, views, &candidates, &across, options.seam_cost, part)?;
     let mut charts = charts(mesh, views, &across, &labels);
     let (size, scale) = pack(&mut charts, options.max_size_px - UNSEEN)?;
-    let offsets = offsets(mesh, views, &across, &charts);
+    let part = &mut Part::new(monitor, CHOSEN, LEVELED);
+    let offsets = offsets(mesh, views, &across, &charts, part)?;
     let part = &mut Part::new(monitor, LEVELED, 1.0);
     let indices: Vec<usize> = (0..charts.len()).collect();
     let patches = monitored::map(&indices, Stage::Blending, part, |&index| {
