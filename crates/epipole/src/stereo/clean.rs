@@ -136,7 +136,6 @@ impl Sets {
 /// Closes gaps of at most `max_gap` pixels along rows, then along columns, by linear interpolation
 /// between the disparities at both ends, if these differ by at most `range_px`. Otherwise one end
 /// occludes the other surface, and the gap remains.
-/// stays.
 pub(super) fn close_gaps(disparity: &mut DisparityImage, max_gap: usize, range_px: f32) {
     if max_gap == 0 {
         return;
