@@ -55,9 +55,9 @@ impl AbsolutePoseWithFocal {
 ///     Where the camera sees the points.
 /// camera : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -67,11 +67,11 @@ impl AbsolutePoseWithFocal {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches.
+///     If there are fewer than 4 different matches.
 /// epipole.NoConsensusError
-///     No pose with 3 inliers.
+///     If no pose has 3 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, camera, *, progress=None, **options))]
 fn estimate_absolute_pose(
@@ -104,9 +104,9 @@ fn estimate_absolute_pose(
 /// principal : array_like, shape (2,)
 ///     Principal point, pixels.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -116,11 +116,11 @@ fn estimate_absolute_pose(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 5 different matches.
+///     If there are fewer than 5 different matches.
 /// epipole.NoConsensusError
-///     No pose with 4 inliers.
+///     If no pose has 4 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]
 fn estimate_absolute_pose_and_focal(
@@ -214,9 +214,9 @@ fn pose_p4pf(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 6 points.
+///     If there are fewer than 6 points.
 /// epipole.DegenerateError
-///     Points on a plane, or otherwise critical.
+///     If the points lie on a plane, or are otherwise degenerate.
 #[pyfunction]
 fn pose_dlt(
     points_in_world: &Bound<'_, PyAny>,
@@ -246,10 +246,10 @@ fn pose_dlt(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 points.
+///     If there are fewer than 4 points.
 /// epipole.DegenerateError
-///     Points on one line, no pose with all of them in front of the camera, or a pixel without a
-///     ray.
+///     If the points lie on a line, no pose has all of them in front of the camera, or a pixel has
+///     no ray.
 #[pyfunction]
 fn fit_absolute_pose(
     points_in_world: &Bound<'_, PyAny>,
@@ -282,9 +282,9 @@ fn fit_absolute_pose(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 points in front of the flipped camera.
+///     If fewer than 3 points are in front of the flipped camera.
 /// epipole.DegenerateError
-///     Pixel without a ray.
+///     If a pixel has no ray.
 #[pyfunction]
 fn find_flipped_pose(
     cam_from_world: &RigidTransform,
@@ -308,7 +308,7 @@ fn find_flipped_pose(
 /// pixels : array_like, shape (N, 2)
 /// camera : Camera
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
 /// Returns
 /// -------
@@ -318,11 +318,11 @@ fn find_flipped_pose(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 points in front of the camera.
+///     If fewer than 3 points are in front of the camera.
 /// epipole.DegenerateError
-///     Pixel without a ray.
+///     If a pixel has no ray.
 /// ValueError
-///     Loss width not above 0.
+///     If the loss width is not above 0.
 #[pyfunction]
 #[pyo3(signature = (cam_from_world, points_in_world, pixels, camera, loss=None))]
 fn refine_absolute_pose(

@@ -31,9 +31,9 @@ record! {
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -43,13 +43,13 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches.
+///     If there are fewer than 4 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image on one line.
+///     If all pixels of an image are on a line.
 /// epipole.NoConsensusError
-///     No homography with 4 inliers.
+///     If no homography has 4 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_homography(
@@ -77,9 +77,9 @@ fn estimate_homography(
 ///     Matches.
 /// camera1, camera2 : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -89,13 +89,13 @@ fn estimate_homography(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches that both lenses see.
+///     If fewer than 4 different matches are within the range of both lenses.
 /// epipole.DegenerateError
-///     All pixels of an image of a pinhole camera on one line.
+///     If all pixels of an image of a pinhole camera are on a line.
 /// epipole.NoConsensusError
-///     No homography with 4 inliers.
+///     If no homography has 4 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_homography_calibrated(
@@ -159,9 +159,9 @@ fn homography_4point<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 matches.
+///     If there are fewer than 4 matches.
 /// epipole.DegenerateError
-///     All points, or all but one, on one line.
+///     If all points, or all but one, are on a line.
 #[pyfunction]
 fn fit_homography<'py>(
     pixels1: &Bound<'py, PyAny>,
@@ -182,7 +182,7 @@ fn fit_homography<'py>(
 /// homography : array_like, shape (3, 3)
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
 /// Returns
 /// -------
@@ -191,10 +191,10 @@ fn fit_homography<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches.
+///     If there are fewer than 4 different matches.
 /// ValueError
-///     Loss width not above 0, a coordinate beyond 1e9 pixels, or a pixel that the start maps to
-///     infinity.
+///     If the loss width is not above 0, a coordinate is beyond 1e9 pixels, or the initial
+///     homography maps a pixel to infinity.
 #[pyfunction]
 #[pyo3(signature = (homography, pixels1, pixels2, loss=None))]
 fn refine_homography<'py>(
@@ -226,7 +226,7 @@ fn refine_homography<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pixel that is mapped to infinity.
+///     If a single pixel is given and is mapped to infinity.
 ///
 /// Examples
 /// --------
@@ -308,7 +308,7 @@ fn homography_sampson_px<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Singular matrix.
+///     If the matrix is singular.
 #[pyfunction]
 fn decompose_homography(
     py: Python<'_>,

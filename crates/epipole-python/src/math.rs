@@ -73,7 +73,7 @@ impl Geodetic {
 /// Raises
 /// ------
 /// ValueError
-///     Latitude outside -90° to 90°, or longitude outside -180° to 180°.
+///     If the latitude is outside -90° to 90°, or the longitude outside -180° to 180°.
 #[pyfunction]
 fn local_from_geodetic<'py>(
     py: Python<'py>,
@@ -94,7 +94,7 @@ fn local_from_geodetic<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Line (0, 0, c).
+///     If the line is (0, 0, c).
 #[pyclass(frozen, module = "epipole.math")]
 struct Line2(math::Line2);
 
@@ -123,7 +123,7 @@ impl Line2 {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Line (0, 0, c).
+    ///     If the line is (0, 0, c).
     #[staticmethod]
     fn from_homogeneous(line: &Bound<'_, PyAny>) -> PyResult<Self> {
         Self::new(line)
@@ -138,7 +138,7 @@ impl Line2 {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Equal points.
+    ///     If the points are equal.
     #[staticmethod]
     fn through(p: &Bound<'_, PyAny>, q: &Bound<'_, PyAny>) -> PyResult<Self> {
         let (p, q) = (Point2::from(vector("p", p)?), Point2::from(vector("q", q)?));
@@ -294,7 +294,7 @@ impl Random {
     /// Raises
     /// ------
     /// ValueError
-    ///     ``bound`` of 0.
+    ///     If ``bound`` is 0.
     fn below(&self, bound: usize) -> PyResult<usize> {
         if bound == 0 {
             return Err(PyValueError::new_err("bound must be greater than 0"));

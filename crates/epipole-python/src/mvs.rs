@@ -26,7 +26,7 @@ use view::MvsView;
 /// photos : list of array_like
 ///     uint8 of shape (H, W, 3), one for each image of the reconstruction, of its camera's size.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MvsOptions
 ///     ``max_size_px``, ``num_neighbors`` and ``min_angle_deg`` matter here.
 ///
@@ -37,11 +37,11 @@ use view::MvsView;
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images with a camera, or no points.
+///     If there are fewer than 2 images with a camera, or no points.
 /// epipole.DegenerateError
-///     No two photos that show the same points from different places.
+///     If no two photos show the same points from different positions.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (reconstruction, photos, *, progress=None, **options))]
 fn prepare_views(
@@ -73,7 +73,7 @@ fn prepare_views(
 /// ----------
 /// views : list of MvsView
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MvsOptions
 ///
 /// Returns
@@ -83,9 +83,9 @@ fn prepare_views(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Camera with distortion.
+///     If a camera has distortion.
 /// ValueError
-///     Option, neighbor or depth range out of range.
+///     If an option, neighbor or depth range is out of range.
 #[pyfunction]
 #[pyo3(signature = (views, /, *, progress=None, **options))]
 fn estimate_depth_maps(
@@ -108,9 +108,9 @@ fn estimate_depth_maps(
 /// ----------
 /// views : list of MvsView
 /// maps : list of DepthMap
-///     Those of `estimate_depth_maps`.
+///     See `estimate_depth_maps`.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MvsOptions
 ///
 /// Returns
@@ -120,7 +120,7 @@ fn estimate_depth_maps(
 /// Raises
 /// ------
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (views, maps, *, progress=None, **options))]
 fn fuse_depth_maps<'py>(

@@ -205,7 +205,7 @@ impl Monitor for Guard<'_> {
 /// held : list of bool, optional
 ///     Parameters that stay fixed; missing entries are free.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : LmOptions
 ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
 ///     ``initial_damping``, ``patience``.
@@ -218,9 +218,9 @@ impl Monitor for Guard<'_> {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No residuals or no parameters.
+///     If there are no residuals or no parameters.
 /// ValueError
-///     Loss width not above 0, or no finite cost or gradient at the start.
+///     If the loss width is not above 0, or the initial cost or gradient is not finite.
 #[pyfunction]
 #[pyo3(signature = (
     residuals, jacobian, parameters, *, loss=None, held=None, progress=None, **options
@@ -290,7 +290,7 @@ fn minimize_dense<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     ``step`` not above 0.
+///     If ``step`` is not above 0.
 ///
 /// Examples
 /// --------

@@ -201,7 +201,7 @@ impl Panorama {
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches, wrong ones among them.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : OverlapOptions
 ///     ``ransac``, a dict such as ``{"max_error_px": 3.0}``; ``min_num_inliers``.
 ///
@@ -213,9 +213,9 @@ impl Panorama {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     All pixels of an image on one line.
+///     If all pixels of an image are on a line.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` is out of range.
 ///
 /// Examples
 /// --------
@@ -263,7 +263,7 @@ fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overl
 /// find_focal : bool, optional
 ///     Whether to find one factor of all focal lengths, from 1/4 to 4.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -272,9 +272,9 @@ fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overl
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     No overlaps, or one whose matches meet in a point.
+///     If there are no overlaps, or the matches of an overlap coincide.
 /// ValueError
-///     Overlap of a photo that does not exist.
+///     If an overlap refers to a missing photo.
 #[pyfunction]
 #[pyo3(signature = (intrinsics, overlaps, find_focal=false, *, progress=None))]
 fn estimate_panorama(
@@ -308,9 +308,9 @@ fn estimate_panorama(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     No overlaps.
+///     If there are no overlaps.
 /// ValueError
-///     Overlap of a photo that does not exist.
+///     If an overlap refers to a missing photo.
 #[pyfunction]
 fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Panorama> {
     let overlaps = of_images(overlaps, num_images)?;
@@ -327,7 +327,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
 /// photos : list of array_like of uint8, shape (H, W, 3)
 ///     In the order of the panorama.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RenderOptions
 ///     ``surface``, ``"cylinder"``, ``"plane"`` or ``"sphere"``; ``blend``, ``"bands"``,
 ///     ``"feather"`` or ``"seams"``; ``gains``, whether exposures are made alike; ``max_pixels``.
@@ -339,7 +339,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Photo that looks beyond the surface.
+///     If a photo extends beyond the surface.
 #[pyfunction]
 #[pyo3(signature = (panorama, photos, *, progress=None, **options))]
 fn render_panorama<'py>(

@@ -49,9 +49,9 @@ fn reduce<'py, T: serde::Serialize>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Cameras that have too little in common to see ``num_points`` points.
+///     If the overlap of the cameras is too small for ``num_points`` points.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 ///
 /// Examples
 /// --------
@@ -144,11 +144,11 @@ impl TwoViewProblem {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 cameras.
+///     If there are fewer than 2 cameras.
 /// epipole.DegenerateError
-///     Too few points that two cameras see.
+///     If too few points are visible in two cameras.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyclass(frozen, module = "epipole.synthetic")]
 struct MultiViewProblem {
     options: synthetic::MultiViewProblemOptions,

@@ -71,9 +71,9 @@ impl Threads {
 /// Raises
 /// ------
 /// ValueError
-///     ``count`` outside 1 to 1024.
+///     If ``count`` is outside 1 to 1024.
 /// OSError
-///     System that starts no more threads.
+///     If the system cannot start more threads.
 ///
 /// Examples
 /// --------

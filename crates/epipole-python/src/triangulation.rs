@@ -37,8 +37,8 @@ record! {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single match of parallel rays, of a point not in front of both cameras, of cameras at the
-///     same place, or of a matrix of rank below 3.
+///     If a single match is given and its rays are parallel, its point is not in front of both
+///     cameras, the cameras are at the same position, or a matrix has rank below 3.
 #[pyfunction]
 fn triangulate_dlt<'py>(
     p1: &Bound<'py, PyAny>,
@@ -70,9 +70,10 @@ fn triangulate_dlt<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pair of parallel or diverging rays, or cameras at the same place.
+///     If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+///     same position.
 /// ValueError
-///     Single pair with a ray of length 0.
+///     If a single pair is given and a ray has length 0.
 ///
 /// Examples
 /// --------
@@ -108,10 +109,10 @@ fn triangulate_midpoint<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pair of parallel or diverging rays, or cameras at the same place; among several, a
-///     row of NaN.
+///     If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+///     same position; for several pairs, its row is NaN.
 /// ValueError
-///     Single pair with a ray of length 0.
+///     If a single pair is given and a ray has length 0.
 #[pyfunction]
 fn triangulate_weighted_midpoint<'py>(
     cam2_from_cam1: &RigidTransform,
@@ -140,10 +141,10 @@ fn triangulate_weighted_midpoint<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pair of parallel or diverging rays, or cameras at the same place; among several, a
-///     row of NaN.
+///     If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+///     same position; for several pairs, its row is NaN.
 /// ValueError
-///     Single pair with a ray of length 0.
+///     If a single pair is given and a ray has length 0.
 #[pyfunction]
 fn triangulate_angular<'py>(
     cam2_from_cam1: &RigidTransform,
@@ -171,8 +172,8 @@ fn triangulate_angular<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single match of parallel or diverging rays, of an epipole, of a pixel without a ray, or of
-///     cameras at the same place.
+///     If a single match is given and its rays are parallel or diverge, it is an epipole, a pixel
+///     has no ray, or the cameras are at the same position.
 #[pyfunction]
 fn triangulate_optimal<'py>(
     cam1: &PosedCamera,
@@ -201,8 +202,8 @@ fn triangulate_optimal<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single match of the two epipoles, one whose lines are infinitely far away, or a matrix of
-///     zeros.
+///     If a single match is given and it consists of the two epipoles or its lines are at infinity,
+///     or if the matrix is zero.
 #[pyfunction]
 fn correct_matches<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -232,10 +233,10 @@ fn correct_matches<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 views.
+///     If there are fewer than 2 views.
 /// epipole.DegenerateError
-///     Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
-///     without a ray.
+///     If the rays are parallel, the cameras are at the same position, a camera does not see the
+///     point, or a pixel has no ray.
 #[pyfunction]
 fn triangulate_nview_dlt<'py>(
     cameras: Vec<PosedCamera>,
@@ -254,7 +255,7 @@ fn triangulate_nview_dlt<'py>(
 /// pixels : array_like, shape (N, 2)
 ///     Pixel of each camera.
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
 /// Returns
 /// -------
@@ -263,12 +264,12 @@ fn triangulate_nview_dlt<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 views.
+///     If there are fewer than 2 views.
 /// epipole.DegenerateError
-///     Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
-///     without a ray.
+///     If the rays are parallel, the cameras are at the same position, a camera does not see the
+///     point, or a pixel has no ray.
 /// ValueError
-///     Loss width not above 0.
+///     If the loss width is not above 0.
 #[pyfunction]
 #[pyo3(signature = (cameras, pixels, loss=None))]
 fn triangulate_nview(
@@ -328,9 +329,9 @@ fn triangulation_angle_rad<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Camera that does not see the point, or views that leave it free to move along a ray.
+///     If a camera does not see the point, or the views do not constrain it along a ray.
 /// ValueError
-///     ``sigma_px`` not above 0.
+///     If ``sigma_px`` is not above 0.
 #[pyfunction]
 fn point_covariance<'py>(
     cameras: Vec<PosedCamera>,

@@ -148,7 +148,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : TwoViewOptions
 ///     ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
 ///     ``ransac``, a dict of the options of RANSAC.
@@ -160,13 +160,13 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches.
+///     If there are fewer than 4 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image on one line.
+///     If all pixels of an image are on a line.
 /// epipole.NoConsensusError
-///     No model with as many inliers as its sample has.
+///     If every model has fewer inliers than its sample has matches.
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_two_view(
@@ -192,7 +192,7 @@ fn estimate_two_view(
 ///     Matches.
 /// camera1, camera2 : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : TwoViewOptions
 ///
 /// Returns
@@ -202,14 +202,15 @@ fn estimate_two_view(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 4 different matches that no rotation explains, or fewer than 5 through a lens
-///     with distortion.
+///     If fewer than 4 different matches are given that no rotation explains, or fewer than 5
+///     through a lens with distortion.
 /// epipole.DegenerateError
-///     All pixels of an image of a pinhole camera on one line, unless a rotation explains them.
+///     If all pixels of an image of a pinhole camera are on a line, unless a rotation explains
+///     them.
 /// epipole.NoConsensusError
-///     No model with as many inliers as its sample has.
+///     If every model has fewer inliers than its sample has matches.
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_two_view_calibrated(
@@ -238,9 +239,9 @@ fn estimate_two_view_calibrated(
 ///     Matches.
 /// camera1, camera2 : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -250,11 +251,11 @@ fn estimate_two_view_calibrated(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 different matches.
+///     If there are fewer than 2 different matches.
 /// epipole.NoConsensusError
-///     No rotation with 2 inliers.
+///     If no rotation has 2 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_rotation(
@@ -292,7 +293,7 @@ fn estimate_rotation(
 /// Raises
 /// ------
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, inliers, **options))]
 fn find_degeneracy(
@@ -326,7 +327,7 @@ fn find_degeneracy(
 /// Raises
 /// ------
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 ///
 /// Examples
 /// --------
@@ -364,7 +365,7 @@ fn find_unmoved(
 /// Raises
 /// ------
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
 fn find_explaining_turn(
@@ -406,7 +407,7 @@ fn find_explaining_turn(
 /// Raises
 /// ------
 /// ValueError
-///     ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
 fn find_turn_and_focal(

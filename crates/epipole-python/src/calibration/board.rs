@@ -31,9 +31,9 @@ use pyo3::types::PyTuple;
 /// Raises
 /// ------
 /// ValueError
-///     Fewer than 3 or more than 1000 columns or rows (at least 2 columns of shifted circles, one
-///     tag of an AprilGrid), ``square_m`` not above 0, a size of markers out of range, or more
-///     markers than the dictionary has.
+///     If there are fewer than 3 or more than 1000 columns or rows (minimum: 2 columns for shifted
+///     circles, one tag for an AprilGrid), ``square_m`` is not above 0, a marker size is out of
+///     range, or the dictionary has too few markers.
 ///
 /// Examples
 /// --------
@@ -118,7 +118,7 @@ impl Board {
     /// Raises
     /// ------
     /// IndexError
-    ///     Mark that the board does not have.
+    ///     If the board has no such mark.
     fn mark<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let count = self.board.num_marks();
         if index >= count {

@@ -119,7 +119,7 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 /// size : tuple of int
 ///     Width and height of all photos, pixels.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : CalibrationOptions
 ///     ``lens``, the model of the lens, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
 ///
@@ -130,11 +130,11 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 views, or a view with fewer than 4 marks.
+///     If there are fewer than 2 views, or a view has fewer than 4 marks.
 /// epipole.DegenerateError
-///     Marks of a view on one line, or boards that are parallel or fit no camera.
+///     If the marks of a view lie on a line, or the boards are parallel or fit no camera.
 /// ValueError
-///     Image without pixels.
+///     If the image size is 0.
 #[pyfunction]
 #[pyo3(signature = (board, views, size, *, progress=None, **options))]
 pub(super) fn calibrate(
@@ -196,7 +196,7 @@ record! {
 /// left, right : list of BoardView or None
 ///     Marks in the photos of each camera, taken in pairs.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -205,11 +205,11 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No board that both cameras see, or a view with fewer than 4 marks.
+///     If the cameras see no board in common, or a view has fewer than 4 marks.
 /// epipole.DegenerateError
-///     Marks of a view on one line, or in no plane in front of the camera.
+///     If the marks of a view lie on a line, or not on a plane in front of the camera.
 /// ValueError
-///     Camera without pixels.
+///     If the image size of the camera is 0.
 #[pyfunction]
 #[pyo3(signature = (board, cameras, left, right, *, progress=None))]
 pub(super) fn calibrate_rig(
@@ -249,9 +249,9 @@ pub(super) fn calibrate_rig(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 homographies.
+///     If there are fewer than 2 homographies.
 /// epipole.DegenerateError
-///     Parallel planes, or noise that fits no camera.
+///     If the planes are parallel, or the noise is so strong that no camera fits.
 #[pyfunction]
 pub(super) fn intrinsics_from_planes(pixels_from_plane: &Bound<'_, PyAny>) -> PyResult<Intrinsics> {
     let planes = pixels_from_plane.try_iter()?.enumerate();

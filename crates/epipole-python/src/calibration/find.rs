@@ -45,7 +45,7 @@ impl BoardSearch {
     /// Raises
     /// ------
     /// ValueError
-    ///     Unknown ``kind``.
+    ///     If ``kind`` is unknown.
     fn problem(&self, board: &Board) -> PyResult<Option<String>> {
         use calibration::BoardSearch as Search;
         let search = match (&*self.kind, &self.view) {
@@ -117,7 +117,7 @@ impl From<calibration::BoardSearch> for BoardSearch {
 ///     Gray, uint8 or float in [0, 1].
 /// board : Board
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -127,7 +127,7 @@ impl From<calibration::BoardSearch> for BoardSearch {
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5].
+///     If gray values are outside [-0.5, 1.5].
 #[pyfunction]
 #[pyo3(signature = (image, board, *, progress=None))]
 pub(super) fn find_board(
@@ -217,7 +217,7 @@ impl MarkerDictionary {
     /// Raises
     /// ------
     /// IndexError
-    ///     Marker or bit that the dictionary does not have.
+    ///     If the dictionary has no such marker or bit.
     fn is_white(&self, id: usize, row: usize, column: usize) -> PyResult<bool> {
         self.0.is_white(id, row, column).ok_or_else(|| {
             PyIndexError::new_err(format!("marker {id} has no bit ({row}, {column})"))
@@ -255,7 +255,7 @@ record! {
 /// dictionary : str or MarkerDictionary
 ///     Such as ``"4x4_50"`` or ``"36h11"``.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MarkerOptions
 ///     ``max_hamming``, ``border_bits``, ``min_side_px``.
 ///
@@ -267,7 +267,7 @@ record! {
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5].
+///     If gray values are outside [-0.5, 1.5].
 #[pyfunction]
 #[pyo3(signature = (image, dictionary, *, progress=None, **options))]
 pub(super) fn detect_markers(
@@ -305,7 +305,7 @@ pub(super) fn detect_markers(
 ///     Standard deviation of the gray values.
 /// seed : int, optional
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -315,7 +315,7 @@ pub(super) fn detect_markers(
 /// Raises
 /// ------
 /// ValueError
-///     Result of more than 2**32 pixels.
+///     If the result has more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0, *, progress=None))]
 pub(super) fn photograph_of_board<'py>(

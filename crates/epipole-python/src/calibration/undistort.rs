@@ -16,15 +16,15 @@ use pyo3::prelude::*;
 /// keep : {"valid", "all"}, optional
 ///     Only the area that was photographed everywhere, or all with black borders.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Lens model that folds less than half-way to the border, or, with ``keep="all"``, a lens that
+///     If the lens model folds less than halfway to the border, or, with ``keep="all"``, the lens
 ///     sees more than 80° to a side.
 /// ValueError
-///     Image of less than 2 pixels on a side, or of more than 2**32 pixels.
+///     If a side of the image is shorter than 2 pixels, or the image has more than 2**32 pixels.
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct Undistortion(Content);
 

@@ -96,7 +96,7 @@ impl Camera {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single point that the lens does not see.
+    ///     If a single point is given and the lens does not see it.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -116,7 +116,7 @@ impl Camera {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single pixel without a ray.
+    ///     If a single pixel is given and has no ray.
     fn unproject<'py>(&self, pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let unproject = |p: &_| self.0.unproject(&Point2::from(*p));
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), unproject)
@@ -136,7 +136,7 @@ impl Camera {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single pixel without a ray, or with one 90° or more off the axis.
+    ///     If a single pixel is given and has no ray, or its ray is 90° or more off the axis.
     fn pinhole_pixel<'py>(&self, pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let undistort = |p: &_| Ok(self.0.pinhole_pixel(&Point2::from(*p))?.coords);
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), undistort)

@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     Focal length not above 0.
+///     If the focal length is not above 0.
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct Intrinsics(pub(crate) camera::Intrinsics);
@@ -55,7 +55,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     Focal length not above 0.
+    ///     If the focal length is not above 0.
     #[staticmethod]
     fn centered(focal_px: f64, width: u32, height: u32) -> PyResult<Self> {
         Ok(Self(
@@ -72,7 +72,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     Focal length not above 0, or a matrix of another form than K without skew.
+    ///     If the focal length is not above 0, or the matrix is not a K without skew.
     #[staticmethod]
     fn from_matrix(k: &Bound<'_, PyAny>) -> PyResult<Self> {
         let m: Matrix3<f64> = matrix("k", k)?;
@@ -95,7 +95,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     Focal length not above 0.
+    ///     If the focal length is not above 0.
     #[staticmethod]
     fn from_colmap(parameters: [f64; 4]) -> PyResult<Self> {
         Ok(Self(
@@ -161,7 +161,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single point with ``z <= 0``.
+    ///     If a single point is given and has ``z <= 0``.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -191,7 +191,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     Factor not above 0.
+    ///     If the factor is not above 0.
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.scaled(factor).or_raise()?))
     }
@@ -206,7 +206,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     Factor not above 0.
+    ///     If the factor is not above 0.
     fn zoomed(&self, factor: f64) -> PyResult<Self> {
         Ok(Self(self.0.zoomed(factor).or_raise()?))
     }
@@ -221,7 +221,7 @@ impl Intrinsics {
     /// Raises
     /// ------
     /// ValueError
-    ///     New side of 0 pixels.
+    ///     If a new side is 0 pixels long.
     #[pyo3(signature = (old, new))]
     fn resized(&self, old: (u32, u32), new: (u32, u32)) -> PyResult<Self> {
         Ok(Self(self.0.resized(old, new).or_raise()?))

@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     Another number of coefficients than the kind has.
+///     If the number of coefficients does not match the kind.
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct Lens(pub(crate) camera::Lens);
@@ -80,7 +80,7 @@ impl Lens {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single point that the lens does not see.
+    ///     If a single point is given and the lens does not see it.
     fn project<'py>(&self, x_in_cam: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(x).ok_or(Error::PointBehindCamera)?.coords);
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
@@ -99,7 +99,7 @@ impl Lens {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single image point without a ray; among several, a row of NaN.
+    ///     If a single image point is given and has no ray; for several points, its row is NaN.
     fn ray<'py>(&self, seen: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let ray = |p: &_| self.0.ray(&Point2::from(*p));
         Batch::<2>::read("seen", seen)?.vectors(seen.py(), ray)

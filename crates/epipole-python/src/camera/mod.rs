@@ -68,7 +68,7 @@ fn relative_motion(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Target at the center, or ``up_in_world`` zero or along the line of sight.
+///     If the target is at the center, or ``up_in_world`` is zero or parallel to the line of sight.
 #[pyfunction]
 fn look_at(
     center_in_world: &Bound<'_, PyAny>,

@@ -73,7 +73,7 @@ impl PosedCamera {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single point that the lens does not see.
+    ///     If a single point is given and the lens does not see it.
     fn project<'py>(&self, x_in_world: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let project = |x: &_| Ok(self.0.project(&Point3::from(*x))?.coords);
         Batch::<3>::read("x_in_world", x_in_world)?.vectors(x_in_world.py(), project)

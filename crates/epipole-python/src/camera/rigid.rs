@@ -27,7 +27,7 @@ const LAST_BITS: f64 = 1e-14;
 /// Raises
 /// ------
 /// ValueError
-///     Matrix that is no rotation.
+///     If the matrix is not a rotation.
 ///
 /// Examples
 /// --------
@@ -71,7 +71,7 @@ impl RigidTransform {
     /// Raises
     /// ------
     /// ValueError
-    ///     Quaternion whose length is not 1.
+    ///     If the length of the quaternion is not 1.
     #[staticmethod]
     #[pyo3(signature = (quaternion, translation=None))]
     fn from_quaternion(

@@ -17,9 +17,9 @@ use pyo3::types::PyDict;
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -29,13 +29,13 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 7 different matches.
+///     If there are fewer than 7 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image on one line.
+///     If all pixels of an image are on a line.
 /// epipole.NoConsensusError
-///     No matrix with 7 inliers.
+///     If no matrix has 7 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 pub(super) fn estimate_fundamental(
@@ -63,9 +63,9 @@ pub(super) fn estimate_fundamental(
 ///     Matches.
 /// camera1, camera2 : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -75,13 +75,13 @@ pub(super) fn estimate_fundamental(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 5 different matches.
+///     If there are fewer than 5 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image of a pinhole camera on one line.
+///     If all pixels of an image of a pinhole camera are on a line.
 /// epipole.NoConsensusError
-///     No matrix with 5 inliers.
+///     If no matrix has 5 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 pub(super) fn estimate_essential(
@@ -112,9 +112,9 @@ pub(super) fn estimate_essential(
 ///     Matches.
 /// camera1, camera2 : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -124,13 +124,13 @@ pub(super) fn estimate_essential(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 5 different matches.
+///     If there are fewer than 5 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image of a pinhole camera on one line.
+///     If all pixels of an image of a pinhole camera are on a line.
 /// epipole.NoConsensusError
-///     No pose with 5 inliers.
+///     If no pose has 5 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 pub(super) fn estimate_relative_pose(
@@ -163,9 +163,9 @@ pub(super) fn estimate_relative_pose(
 /// gravity1, gravity2 : array_like, shape (3,)
 ///     Direction of gravity in each camera's frame.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -175,13 +175,14 @@ pub(super) fn estimate_relative_pose(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 5 different matches.
+///     If there are fewer than 5 different matches.
 /// epipole.DegenerateError
-///     Gravity of length 0, or all pixels of an image of a pinhole camera on one line.
+///     If a gravity vector has length 0, or all pixels of an image of a pinhole camera are on a
+///     line.
 /// epipole.NoConsensusError
-///     No pose with 3 inliers.
+///     If no pose has 3 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (
     pixels1, pixels2, camera1, camera2, gravity1, gravity2, *, progress=None, **options
@@ -225,9 +226,9 @@ pub(super) fn estimate_relative_pose_with_gravity(
 /// principal1, principal2 : array_like, shape (2,)
 ///     Principal points, pixels.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -237,13 +238,13 @@ pub(super) fn estimate_relative_pose_with_gravity(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 6 different matches.
+///     If there are fewer than 6 different matches.
 /// epipole.DegenerateError
-///     All pixels of an image on one line.
+///     If all pixels of an image are on a line.
 /// epipole.NoConsensusError
-///     No pose with 6 inliers.
+///     If no pose has 6 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, principal1, principal2, *, progress=None, **options))]
 pub(super) fn estimate_relative_pose_and_focal(

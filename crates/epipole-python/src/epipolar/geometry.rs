@@ -137,7 +137,7 @@ pub(super) fn epipolar_row<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pixel that is the epipole, or whose line is infinitely far away.
+///     If a single pixel is given and it is the epipole or its line is at infinity.
 #[pyfunction]
 pub(super) fn epipolar_line1<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -164,7 +164,7 @@ pub(super) fn epipolar_line1<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single pixel that is the epipole, or whose line is infinitely far away.
+///     If a single pixel is given and it is the epipole or its line is at infinity.
 #[pyfunction]
 pub(super) fn epipolar_line2<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -189,7 +189,7 @@ pub(super) fn epipolar_line2<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Matrix of rank 1 or 0.
+///     If the matrix has rank 1 or 0.
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(super) fn epipoles<'py>(
@@ -234,7 +234,7 @@ pub(super) fn enforce_rank2<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Matrix of rank 1 or 0.
+///     If the matrix has rank 1 or 0.
 #[pyfunction]
 pub(super) fn project_to_essential<'py>(
     matrix: &Bound<'py, PyAny>,
@@ -257,7 +257,7 @@ pub(super) fn project_to_essential<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Matrix of rank 1 or 0.
+///     If the matrix has rank 1 or 0.
 #[pyfunction]
 pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<RigidTransform>> {
     let motions = epipolar::decompose_essential(&matrix("essential", essential)?).or_raise()?;
@@ -281,7 +281,7 @@ pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No motions or no matches.
+///     If there are no motions or no matches.
 #[pyfunction]
 pub(super) fn select_pose(
     motions: Vec<RigidTransform>,
@@ -313,7 +313,7 @@ pub(super) fn select_pose(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Motion without translation.
+///     If the motion has no translation.
 #[pyfunction]
 pub(super) fn essential_from_motion<'py>(
     py: Python<'py>,
@@ -338,7 +338,7 @@ pub(super) fn essential_from_motion<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Cameras at the same place.
+///     If both cameras are at the same position.
 #[pyfunction]
 pub(super) fn fundamental_from_cameras<'py>(
     py: Python<'py>,
@@ -365,7 +365,7 @@ pub(super) fn fundamental_from_cameras<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Matrix of zeros.
+///     If the matrix is zero.
 #[pyfunction]
 pub(super) fn fundamental_from_essential<'py>(
     essential: &Bound<'py, PyAny>,
@@ -391,7 +391,7 @@ pub(super) fn fundamental_from_essential<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Matrix of zeros.
+///     If the matrix is zero.
 #[pyfunction]
 pub(super) fn essential_from_fundamental<'py>(
     fundamental: &Bound<'py, PyAny>,
@@ -418,8 +418,7 @@ pub(super) fn essential_from_fundamental<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Optical axes that meet or are parallel, or so much noise that a squared focal length is
-///     negative.
+///     If the optical axes meet or are parallel, or noise makes a squared focal length negative.
 #[pyfunction]
 pub(super) fn focal_lengths_from_fundamental(
     fundamental: &Bound<'_, PyAny>,

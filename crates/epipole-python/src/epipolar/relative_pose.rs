@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-6;
 /// Raises
 /// ------
 /// ValueError
-///     Matrix that is no rotation, or a direction whose length is not 1.
+///     If the matrix is not a rotation, or the length of the direction is not 1.
 #[pyclass(frozen, from_py_object, module = "epipole.epipolar")]
 #[derive(Clone)]
 pub(crate) struct RelativePose(pub(crate) epipolar::RelativePose);
@@ -65,7 +65,7 @@ impl RelativePose {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Motion without translation.
+    ///     If the motion has no translation.
     #[staticmethod]
     fn from_motion(cam2_from_cam1: &RigidTransform) -> PyResult<Self> {
         let pose = epipolar::RelativePose::from_motion(&cam2_from_cam1.0);

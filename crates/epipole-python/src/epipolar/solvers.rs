@@ -70,9 +70,10 @@ pub(super) fn fundamental_7point<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 8 matches.
+///     If there are fewer than 8 matches.
 /// epipole.DegenerateError
-///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
+///     If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+///     rotated.
 #[pyfunction]
 pub(super) fn fundamental_8point<'py>(
     pixels1: &Bound<'py, PyAny>,
@@ -98,9 +99,10 @@ pub(super) fn fundamental_8point<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 8 matches.
+///     If there are fewer than 8 matches.
 /// epipole.DegenerateError
-///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
+///     If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+///     rotated.
 #[pyfunction]
 pub(super) fn fundamental_8point_explained(
     pixels1: &Bound<'_, PyAny>,
@@ -126,9 +128,10 @@ pub(super) fn fundamental_8point_explained(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 8 matches.
+///     If there are fewer than 8 matches.
 /// epipole.DegenerateError
-///     Matches on a plane or a line, equal ones, or those of a camera that only turned.
+///     If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+///     rotated.
 #[pyfunction]
 pub(super) fn fundamental_8point_unnormalized(
     pixels1: &Bound<'_, PyAny>,
@@ -174,11 +177,11 @@ pub(super) fn essential_5point<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 8 pairs of rays.
+///     If there are fewer than 8 pairs of rays.
 /// epipole.DegenerateError
-///     Rays that leave the matrix open, such as those of a camera that only turned.
+///     If the rays do not determine the matrix, as for a camera that only rotated.
 /// ValueError
-///     Ray of length 0.
+///     If a ray has length 0.
 #[pyfunction]
 pub(super) fn essential_8point<'py>(
     rays1: &Bound<'py, PyAny>,
@@ -259,7 +262,7 @@ pub(super) fn relative_pose_3point(
 /// fundamental : array_like, shape (3, 3)
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
 /// Returns
 /// -------
@@ -268,11 +271,11 @@ pub(super) fn relative_pose_3point(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 7 different matches.
+///     If there are fewer than 7 different matches.
 /// epipole.DegenerateError
-///     Matrix of rank 1 or 0.
+///     If the matrix has rank 1 or 0.
 /// ValueError
-///     Loss width not above 0, or a coordinate beyond 1e9 pixels.
+///     If the loss width is not above 0, or a coordinate is beyond 1e9 pixels.
 #[pyfunction]
 #[pyo3(signature = (fundamental, pixels1, pixels2, loss=None))]
 pub(super) fn refine_fundamental<'py>(
@@ -297,7 +300,7 @@ pub(super) fn refine_fundamental<'py>(
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// camera1, camera2 : Camera
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
 /// Returns
 /// -------
@@ -306,11 +309,11 @@ pub(super) fn refine_fundamental<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 5 different matches.
+///     If there are fewer than 5 different matches.
 /// epipole.DegenerateError
-///     Pixel without a ray.
+///     If a pixel has no ray.
 /// ValueError
-///     Loss width not above 0, or a coordinate beyond 1e9 pixels.
+///     If the loss width is not above 0, or a coordinate is beyond 1e9 pixels.
 #[pyfunction]
 #[pyo3(signature = (pose, pixels1, pixels2, camera1, camera2, loss=None))]
 pub(super) fn refine_relative_pose(

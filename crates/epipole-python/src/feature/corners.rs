@@ -15,13 +15,13 @@ use pyo3::types::PyDict;
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// k : float
 ///     In [0, 0.25), usually 0.04 to 0.06.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : StructureTensorOptions
-///     Those of `structure_tensor`.
+///     See `structure_tensor`.
 ///
 /// Returns
 /// -------
@@ -31,8 +31,8 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// ValueError
-///     ``k`` outside [0, 0.25), or a window of 0 or more than 255 pixels, or a Gaussian one outside
-///     (0, 31].
+///     If ``k`` is outside [0, 0.25), a box window is outside 1 to 255 pixels, or a Gaussian window
+///     is outside (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, k, *, progress=None, **options))]
 pub(super) fn harris_response<'py>(
@@ -53,11 +53,11 @@ pub(super) fn harris_response<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : StructureTensorOptions
-///     Those of `structure_tensor`.
+///     See `structure_tensor`.
 ///
 /// Returns
 /// -------
@@ -66,7 +66,7 @@ pub(super) fn harris_response<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
+///     If a box window is outside 1 to 255 pixels, or a Gaussian window is outside (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn min_eigenvalue_response<'py>(
@@ -88,7 +88,7 @@ pub(super) fn min_eigenvalue_response<'py>(
 /// image : array_like, shape (H, W)
 ///     Gray.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : GoodFeaturesOptions
 ///     Such as ``max_corners`` (0 for no limit), ``quality`` (share of the strongest response),
 ///     ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows": 3}``.
@@ -100,8 +100,8 @@ pub(super) fn min_eigenvalue_response<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     ``quality`` outside (0, 1], ``min_distance_px`` below 0, a grid without cells, or
-///     ``measure`` or ``tensor`` out of range.
+///     If ``quality`` is outside (0, 1], ``min_distance_px`` is below 0, the grid has no cells, or
+///     ``measure`` or ``tensor`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn good_features_to_track(
@@ -126,7 +126,7 @@ pub(super) fn good_features_to_track(
 /// threshold : float
 ///     Smaller responses are left out.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -135,7 +135,7 @@ pub(super) fn good_features_to_track(
 /// Raises
 /// ------
 /// ValueError
-///     ``radius`` of 0.
+///     If ``radius`` is 0.
 #[pyfunction]
 #[pyo3(signature = (response, radius, threshold, *, progress=None))]
 pub(super) fn non_maximum_suppression(
@@ -160,7 +160,7 @@ pub(super) fn non_maximum_suppression(
 /// corners : array_like, shape (N, 2)
 ///     Pixels.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RefineOptions
 ///     ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
 ///
@@ -172,7 +172,7 @@ pub(super) fn non_maximum_suppression(
 /// Raises
 /// ------
 /// ValueError
-///     ``half_window`` outside 1 to 50, or ``tolerance_px`` not above 0.
+///     If ``half_window`` is outside 1 to 50, or ``tolerance_px`` is not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, corners, *, progress=None, **options))]
 pub(super) fn refine_corners<'py>(

@@ -33,7 +33,7 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : FeatureOptions
 ///     ``kind``: ``"root_sift"`` (the default), ``"sift"``, ``"orb"`` or ``"harris"``;
 ///     ``max_features=8192``, 0 for no limit; ``upright=False``; and others of each kind.
@@ -46,7 +46,7 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], or an option out of range.
+///     If gray values are outside [-0.5, 1.5], or an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_features(
@@ -68,7 +68,7 @@ pub(super) fn detect_features(
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
 ///     Such as ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
 ///     ``upright``, ``normalization="root"`` for RootSIFT.
@@ -81,7 +81,7 @@ pub(super) fn detect_features(
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], or an option out of range.
+///     If gray values are outside [-0.5, 1.5], or an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_sift(
@@ -103,7 +103,7 @@ pub(super) fn detect_sift(
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : OrbOptions
 ///     Such as ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
 ///     values in [0, 1]), ``upright``.
@@ -116,7 +116,7 @@ pub(super) fn detect_sift(
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], or an option out of range.
+///     If gray values are outside [-0.5, 1.5], or an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn detect_orb(
@@ -140,9 +140,9 @@ pub(super) fn detect_orb(
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel and the direction 0.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
-///     Those of `detect_sift`.
+///     See `detect_sift`.
 ///
 /// Returns
 /// -------
@@ -151,8 +151,8 @@ pub(super) fn detect_orb(
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
-///     above 0.
+///     If gray values are outside [-0.5, 1.5], an option is out of range, or the scale of a
+///     keypoint is not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn describe_sift<'py>(
@@ -178,9 +178,9 @@ pub(super) fn describe_sift<'py>(
 /// keypoints : Keypoints or array_like, shape (N, 2)
 ///     Points alone have a scale of 1 pixel.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
-///     Those of `detect_sift`.
+///     See `detect_sift`.
 ///
 /// Returns
 /// -------
@@ -190,8 +190,8 @@ pub(super) fn describe_sift<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
-///     above 0.
+///     If gray values are outside [-0.5, 1.5], an option is out of range, or the scale of a
+///     keypoint is not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, *, progress=None, **options))]
 pub(super) fn sift_directions<'py>(
@@ -221,7 +221,7 @@ pub(super) fn sift_directions<'py>(
 /// spacing_px : float, optional
 ///     Distance between samples, pixels, > 0.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -231,7 +231,7 @@ pub(super) fn sift_directions<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     ``size`` outside 2 to 64, or ``spacing_px`` not above 0.
+///     If ``size`` is outside 2 to 64, or ``spacing_px`` is not above 0.
 #[pyfunction]
 #[pyo3(signature = (image, keypoints, size, spacing_px=1.0, *, progress=None))]
 pub(super) fn describe_patches<'py>(

@@ -57,7 +57,7 @@ impl Neighbors {
 /// descriptors1, descriptors2 : Features or array_like
 ///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32), such as OpenCV's.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MatchOptions
 ///     ``max_ratio``, in (0, 1], or None for no ratio test; ``mutual``; ``max_distance``;
 ///     ``unique``.
@@ -69,9 +69,9 @@ impl Neighbors {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Numbers in one list and bits in the other.
+///     If one list has float and the other binary descriptors.
 /// ValueError
-///     ``max_ratio`` outside (0, 1], or ``max_distance`` below 0.
+///     If ``max_ratio`` is outside (0, 1], or ``max_distance`` is below 0.
 ///
 /// Examples
 /// --------
@@ -113,7 +113,7 @@ pub(super) fn match_descriptors(
 /// descriptors1, descriptors2 : Features or array_like
 ///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32).
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -122,7 +122,7 @@ pub(super) fn match_descriptors(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Numbers in one list and bits in the other.
+///     If one list has float and the other binary descriptors.
 #[pyfunction]
 #[pyo3(signature = (descriptors1, descriptors2, *, progress=None))]
 pub(super) fn nearest_two(

@@ -132,9 +132,9 @@ impl ScaleSpace {
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
-///     Those of `detect_sift`.
+///     See `detect_sift`.
 ///
 /// Returns
 /// -------
@@ -144,7 +144,7 @@ impl ScaleSpace {
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], or an option out of range.
+///     If gray values are outside [-0.5, 1.5], or an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn scale_space(

@@ -76,9 +76,9 @@ impl StructureTensor {
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : StructureTensorOptions
 ///     ``derivative``: ``"sobel3"``, ``"sobel5"`` or ``"scharr"``; ``window``: ``{"box": 3}`` or
 ///     ``{"gaussian": 1.5}``, pixels; ``scaling``: ``"textbook"`` or ``"open_cv"``; ``border``.
@@ -90,7 +90,7 @@ impl StructureTensor {
 /// Raises
 /// ------
 /// ValueError
-///     Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
+///     If a box window is outside 1 to 255 pixels, or a Gaussian window is outside (0, 31].
 #[pyfunction]
 #[pyo3(signature = (image, *, progress=None, **options))]
 pub(super) fn structure_tensor(

@@ -43,7 +43,7 @@ impl Tracks {
 /// points : array_like, shape (N, 2)
 ///     Pixels of the first image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : TrackOptions
 ///     ``half_window``, pixels; ``num_levels``; ``max_iterations``; ``tolerance_px``;
 ///     ``min_eigenvalue``; ``max_forward_backward_px``, or None for no check.
@@ -55,7 +55,7 @@ impl Tracks {
 /// Raises
 /// ------
 /// ValueError
-///     Gray values outside [-0.5, 1.5], or an option out of range.
+///     If gray values are outside [-0.5, 1.5], or an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (first, second, points, *, progress=None, **options))]
 pub(super) fn track_lucas_kanade(

@@ -61,17 +61,17 @@ impl WindowTensor {
     /// Parameters
     /// ----------
     /// image : array_like, shape (H, W)
-    ///     Gray; uint8 counts as value / 255.
+    ///     Gray; uint8 values are divided by 255.
     /// pixel : tuple of int
     ///     Column and row.
     /// **options : StructureTensorOptions
-    ///     Those of `structure_tensor`.
+    ///     See `structure_tensor`.
     ///
     /// Raises
     /// ------
     /// ValueError
-    ///     Pixel outside the image, or a window of 0 or more than 255 pixels, or a Gaussian one
-    ///     outside (0, 31].
+    ///     If the pixel is outside the image, a box window is outside 1 to 255 pixels, or a
+    ///     Gaussian window is outside (0, 31].
     #[staticmethod]
     #[pyo3(signature = (image, pixel, **options))]
     fn at(
@@ -160,7 +160,7 @@ impl ShiftSurface {
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// center : tuple of int
 ///     Column and row of the window's middle.
 /// half_window : int
@@ -177,7 +177,7 @@ impl ShiftSurface {
 /// Raises
 /// ------
 /// ValueError
-///     ``center`` outside the image, or ``half_window`` or ``reach`` above 127.
+///     If ``center`` is outside the image, or ``half_window`` or ``reach`` is above 127.
 #[pyfunction]
 #[pyo3(signature = (image, center, half_window, reach, border=None))]
 pub(super) fn shift_surface(

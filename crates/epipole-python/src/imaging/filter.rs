@@ -12,13 +12,13 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// kernel : array_like, shape (K, L)
 ///     Weights, with odd sides.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -27,7 +27,7 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     Kernel with an even side.
+///     If a side of the kernel is even.
 #[pyfunction]
 #[pyo3(signature = (image, kernel, border=None, *, progress=None))]
 pub(super) fn correlate<'py>(
@@ -50,13 +50,13 @@ pub(super) fn correlate<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// kernel_u, kernel_v : array_like, shape (K,)
 ///     Weights along the rows and along the columns, odd numbers of them.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -65,7 +65,7 @@ pub(super) fn correlate<'py>(
 /// Raises
 /// ------
 /// ValueError
-///     Kernel of even length.
+///     If the length of the kernel is even.
 #[pyfunction]
 #[pyo3(signature = (image, kernel_u, kernel_v, border=None, *, progress=None))]
 pub(super) fn separable_filter<'py>(
@@ -114,7 +114,7 @@ pub(super) fn noise_gain(weights: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Raises
 /// ------
 /// ValueError
-///     ``sigma_px`` outside (0, 1000], or ``size`` even or above 20001.
+///     If ``sigma_px`` is outside (0, 1000], or ``size`` is even or above 20001.
 ///
 /// Examples
 /// --------
@@ -145,7 +145,7 @@ pub(super) fn gaussian_kernel(
 /// Raises
 /// ------
 /// ValueError
-///     ``sigma_px`` outside (0, 1000].
+///     If ``sigma_px`` is outside (0, 1000].
 #[pyfunction]
 #[allow(clippy::type_complexity)]
 pub(super) fn gaussian_derivative_kernels(
@@ -170,17 +170,17 @@ pub(super) fn gaussian_derivative_kernels(
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     ``sigma_px`` outside (0, 1000].
+///     If ``sigma_px`` is outside (0, 1000].
 #[pyfunction]
 #[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_blur<'py>(
@@ -208,17 +208,17 @@ pub(super) fn gaussian_blur<'py>(
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (H, W)
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     ``size`` even or above 1001.
+///     If ``size`` is even or above 1001.
 #[pyfunction]
 #[pyo3(signature = (image, size, border=None, *, progress=None))]
 pub(super) fn box_filter<'py>(

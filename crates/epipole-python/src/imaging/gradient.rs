@@ -53,7 +53,7 @@ impl Gradient {
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// kind : str, optional
 ///     ``"sobel3"`` (gain 8), ``"sobel5"`` (128) or ``"scharr"`` (32).
 /// border : str or dict, optional
@@ -86,7 +86,7 @@ pub(super) fn derivative(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 ///
@@ -112,7 +112,7 @@ pub(super) fn centered_difference(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 ///
@@ -136,13 +136,13 @@ pub(super) fn sobel(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// sigma_px : float
 ///     Standard deviation of the Gaussian, pixels, in (0, 1000].
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -151,7 +151,7 @@ pub(super) fn sobel(
 /// Raises
 /// ------
 /// ValueError
-///     ``sigma_px`` outside (0, 1000].
+///     If ``sigma_px`` is outside (0, 1000].
 #[pyfunction]
 #[pyo3(signature = (image, sigma_px, border=None, *, progress=None))]
 pub(super) fn gaussian_derivative(

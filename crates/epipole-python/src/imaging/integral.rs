@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 #[pyclass(frozen, eq, module = "epipole.imaging")]
 #[derive(PartialEq)]
 pub(super) struct IntegralImage(imaging::IntegralImage);

@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (ceil(H / 2), ceil(W / 2))
-///     uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
+///     uint8 for a uint8 image, else float32. Its pixel u lies at 2u of the image.
 #[pyfunction]
 #[pyo3(signature = (image, border=None))]
 pub(super) fn pyramid_down<'py>(
@@ -43,12 +43,12 @@ pub(super) fn pyramid_down<'py>(
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (height, width)
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     Result of more than 2**32 pixels.
+///     If the result has more than 2**32 pixels.
 #[pyfunction]
 pub(super) fn pyramid_up<'py>(
     image: &Bound<'py, PyAny>,
@@ -75,7 +75,7 @@ pub(super) fn pyramid_up<'py>(
 /// Returns
 /// -------
 /// list of ndarray of uint8 or float32
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 #[pyfunction]
 pub(super) fn gaussian_pyramid<'py>(
     image: &Bound<'py, PyAny>,
@@ -94,7 +94,7 @@ pub(super) fn gaussian_pyramid<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// num_levels : int
 ///     Maximum number of levels; the last is a single pixel at the latest.
 ///
@@ -146,7 +146,7 @@ pub(super) fn from_laplacian_pyramid<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 ///
 /// Returns
 /// -------

@@ -22,12 +22,12 @@ use pyo3::types::PySlice;
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (height, width)
-///     uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+///     uint8 for a uint8 image, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     Side of 0 pixels, or more than 2**32 pixels.
+///     If a side is 0 pixels long, or the result has more than 2**32 pixels.
 #[pyfunction]
 pub(super) fn resize<'py>(
     image: &Bound<'py, PyAny>,
@@ -67,7 +67,7 @@ pub(super) fn reduce_rgb<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// pixel : array_like, shape (2,) or (N, 2)
 ///     (u, v), pixel centers at integers.
 /// border : str or dict, optional
@@ -91,7 +91,7 @@ pub(super) fn sample_bilinear<'py>(
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
-///     Gray; uint8 counts as value / 255.
+///     Gray; uint8 values are divided by 255.
 /// pixel : array_like, shape (2,) or (N, 2)
 ///     (u, v), pixel centers at integers.
 /// border : str or dict, optional

@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 /// out_from_image : array_like, shape (2, 3)
 ///     Pixels of the image to pixels of the result.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
@@ -24,14 +24,14 @@ use pyo3::types::PyDict;
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 ///
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Map without an inverse.
+///     If the map has no inverse.
 /// ValueError
-///     Result of more than 2**32 pixels.
+///     If the result has more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_affine<'py>(
@@ -61,7 +61,7 @@ pub(super) fn warp_affine<'py>(
 /// out_from_image : array_like, shape (3, 3)
 ///     Pixels of the image to pixels of the result, up to scale.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : WarpOptions
 ///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
@@ -69,14 +69,14 @@ pub(super) fn warp_affine<'py>(
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
-///     uint8 for uint8, else float32.
+///     uint8 for a uint8 image, else float32.
 ///
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Map without an inverse.
+///     If the map has no inverse.
 /// ValueError
-///     Result of more than 2**32 pixels.
+///     If the result has more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (image, out_from_image, *, progress=None, **options))]
 pub(super) fn warp_perspective<'py>(

@@ -149,7 +149,7 @@ impl Cameras {
     /// Raises
     /// ------
     /// KeyError
-    ///     No camera of this name.
+    ///     If there is no camera of this name.
     fn named(&self, name: &str) -> PyResult<Camera> {
         let camera = self.0.named(name).copied();
         let missing = || PyKeyError::new_err(name.to_owned());
@@ -179,9 +179,9 @@ impl Cameras {
 /// Raises
 /// ------
 /// ValueError
-///     Unknown format, wrong or missing values, or a lens that the library does not have.
+///     If the format is unknown, values are wrong or missing, or the lens model is not supported.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, size=None))]
 fn read_cameras(
@@ -209,9 +209,9 @@ fn read_cameras(
 /// Raises
 /// ------
 /// ValueError
-///     No 16 finite numbers, or not the Q of a rectified pair.
+///     If there are not 16 finite numbers, or they are not the Q of a rectified pair.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let py = source.py();
@@ -232,9 +232,9 @@ fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>
 /// Raises
 /// ------
 /// ValueError
-///     Unknown format, or a lens or number of cameras that it cannot hold.
+///     If the format is unknown, or cannot hold a lens or this number of cameras.
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, cameras, format="epipole"))]
 fn write_cameras(path: &Bound<'_, PyAny>, cameras: &Cameras, format: &str) -> PyResult<()> {

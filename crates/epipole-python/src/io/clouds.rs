@@ -49,9 +49,9 @@ pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<B
 /// Raises
 /// ------
 /// ValueError
-///     File that is no PLY, or a damaged one.
+///     If the file is damaged or is not a PLY file.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
     let py = source.py();
@@ -70,7 +70,7 @@ fn read_ply<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Bound<'py, PyAny>, Vec
 /// Raises
 /// ------
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> {
     write(path, &cloud::write_ply(&take_cloud("cloud", cloud)?))
@@ -139,9 +139,9 @@ type Reader = fn(&[u8]) -> epipole_io::Result<DisparityImage>;
 /// Raises
 /// ------
 /// ValueError
-///     File that is no gray PFM, or a truncated one.
+///     If the file is truncated or is not a gray PFM file.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
     disparities(source, epipole_io::disparity::read_pfm)
@@ -158,7 +158,7 @@ fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
 /// Raises
 /// ------
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
     let disparity = self::disparity("disparity", disparity)?;
@@ -176,7 +176,7 @@ fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<
 /// Raises
 /// ------
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<()> {
     let disparity = self::disparity("disparity", disparity)?;
@@ -201,10 +201,10 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 /// Raises
 /// ------
 /// ValueError
-///     Unknown tag, mixed kinds, vertices that are missing or double, wrong numbers, or no
-///     vertices.
+///     If a tag is unknown, kinds are mixed, vertices are missing or duplicate, numbers are wrong,
+///     or there are no vertices.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_g2o(py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
     let source = Source::read(source)?;
@@ -226,7 +226,7 @@ fn read_g2o(py: Python<'_>, source: &Bound<'_, PyAny>) -> PyResult<PoseGraph> {
 /// Raises
 /// ------
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 fn write_g2o(path: &Bound<'_, PyAny>, graph: &PoseGraph) -> PyResult<()> {
     write(path, pose_graph::write_g2o(&graph.0).as_bytes())
@@ -245,9 +245,10 @@ fn write_g2o(path: &Bound<'_, PyAny>, graph: &PoseGraph) -> PyResult<()> {
 /// Raises
 /// ------
 /// ValueError
-///     Missing, surplus or infinite numbers, or an index of no camera or point.
+///     If numbers are missing, surplus or infinite, or an index refers to a missing camera or
+///     point.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_bal(source: &Bound<'_, PyAny>) -> PyResult<BalProblem> {
     let source = Source::read(source)?;
@@ -264,7 +265,7 @@ fn read_bal(source: &Bound<'_, PyAny>) -> PyResult<BalProblem> {
 /// Raises
 /// ------
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
     write(path, bundle::write_bal(&problem.0).as_bytes())

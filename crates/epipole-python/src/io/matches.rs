@@ -33,10 +33,10 @@ fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> 
 /// Raises
 /// ------
 /// ValueError
-///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
 ///     rows.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
     let py = source.py();
@@ -58,10 +58,10 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
 /// Raises
 /// ------
 /// ValueError
-///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
 ///     rows.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 ///
 /// Examples
 /// --------
@@ -88,10 +88,10 @@ fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
 /// Raises
 /// ------
 /// ValueError
-///     Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+///     If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
 ///     rows.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<'py>)> {
     let py = source.py();
@@ -120,9 +120,9 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
 /// Raises
 /// ------
 /// ValueError
-///     Unknown ``layout``.
+///     If ``layout`` is unknown.
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, pixels1, pixels2, distances=None, ratios=None, layout="text"))]
 fn write_matches(

@@ -25,7 +25,8 @@ use pyo3::types::PyString;
 /// Raises
 /// ------
 /// ValueError
-///     Another extension, a texture for PLY, or a triangle of a vertex that does not exist.
+///     If the extension is another one, a PLY file is to get a texture, or a triangle refers to a
+///     missing vertex.
 #[pyfunction]
 #[pyo3(signature = (path, mesh, texture=None))]
 fn write_mesh(

@@ -131,7 +131,7 @@ impl ModelImage {
 /// Raises
 /// ------
 /// ValueError
-///     Track of a point that does not exist.
+///     If a track refers to a missing point.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]
 pub(crate) struct Model(model::Model);
@@ -230,7 +230,7 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Index of something that the model does not have.
+    ///     If an index refers to a missing item of the model.
     fn to_reconstruction(&self) -> PyResult<(Reconstruction, Vec<SfmImage>)> {
         let (reconstruction, images) = or_raise(self.0.to_reconstruction())?;
         let images = images.into_iter().map(SfmImage).collect();
@@ -322,7 +322,7 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Index of something that the model does not have.
+    ///     If an index refers to a missing item of the model.
     fn mean_reprojection_px(&self) -> PyResult<Option<f64>> {
         or_raise(self.0.mean_reprojection_px())
     }
@@ -332,7 +332,7 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Index of something that the model does not have.
+    ///     If an index refers to a missing item of the model.
     fn oddities(&self) -> PyResult<Vec<String>> {
         or_raise(self.0.oddities())
     }
@@ -347,7 +347,7 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Unknown format.
+    ///     If the format is unknown.
     fn losses(&self, format: &str) -> PyResult<Vec<String>> {
         Ok(model_format(format)?.losses(&self.0))
     }
@@ -368,8 +368,8 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Unknown format, a camera that it cannot hold, or an index of something that the model
-    ///     does not have.
+    ///     If the format is unknown or cannot hold a camera, or an index refers to a missing item
+    ///     of the model.
     fn to_files(&self, format: &str) -> PyResult<std::collections::BTreeMap<String, Vec<u8>>> {
         let files = or_raise(self.0.to_files(model_format(format)?))?;
         Ok(files
@@ -394,10 +394,10 @@ impl Model {
     /// Raises
     /// ------
     /// ValueError
-    ///     Unknown format, a camera that it cannot hold, or an index of something that the model
-    ///     does not have.
+    ///     If the format is unknown or cannot hold a camera, or an index refers to a missing item
+    ///     of the model.
     /// OSError
-    ///     Folder or file that cannot be written.
+    ///     If a folder or file cannot be written.
     fn write<'py>(
         &self,
         folder: &Bound<'py, PyAny>,
@@ -456,11 +456,11 @@ impl From<model::ReadModel> for ReadModel {
 /// Raises
 /// ------
 /// ValueError
-///     Damaged or incomplete model, or a camera that the library does not have.
+///     If the model is damaged or incomplete, or a camera model is not supported.
 /// FileNotFoundError
-///     No model in the folder, or no folder.
+///     If the folder does not exist or holds no model.
 /// OSError
-///     Folder that cannot be read.
+///     If the folder cannot be read.
 #[pyfunction]
 fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     let path = path(folder)?;
@@ -490,9 +490,9 @@ fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 /// Raises
 /// ------
 /// ValueError
-///     Unknown format, damaged model, or a camera that the library does not have.
+///     If the format is unknown, the model is damaged, or a camera model is not supported.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     let place = super::source::path(path)?;

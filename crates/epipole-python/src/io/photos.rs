@@ -82,10 +82,10 @@ fn decode_options(
 /// Raises
 /// ------
 /// ValueError
-///     File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
-///     unknown or empty.
+///     If the file is damaged or not an image, it has more than ``max_pixels`` pixels, or ``range``
+///     is unknown or empty.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
 fn decode_rgb(
@@ -130,10 +130,10 @@ fn decode_rgb(
 /// Raises
 /// ------
 /// ValueError
-///     File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
-///     unknown or empty.
+///     If the file is damaged or not an image, it has more than ``max_pixels`` pixels, or ``range``
+///     is unknown or empty.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 #[pyo3(signature = (source, *, max_pixels=None, apply_orientation=true, range=None))]
 fn decode_gray(
@@ -170,9 +170,9 @@ fn decode_gray(
 /// Raises
 /// ------
 /// ValueError
-///     File that is no image, or one with a damaged header.
+///     If the file is not an image, or its header is damaged.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
     let source = Source::read(source)?;
@@ -336,10 +336,10 @@ impl PreparedPhoto {
 /// Raises
 /// ------
 /// ValueError
-///     File that is no image or a damaged one, more than ``max_file_pixels`` pixels, or ``range``
-///     unknown or empty.
+///     If the file is damaged or not an image, it has more than ``max_file_pixels`` pixels, or
+///     ``range`` is unknown or empty.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 #[pyo3(signature = (
     source, *, max_pixels=None, max_file_pixels=None, range=None, sensor_width_mm=None,

@@ -88,10 +88,10 @@ impl Trajectory {
 /// Raises
 /// ------
 /// ValueError
-///     Unknown format, wrong numbers, zero quaternions, matrices that are no rotation, or times
-///     that go backwards.
+///     If the format is unknown, numbers are wrong, a quaternion is zero, a matrix is not a
+///     rotation, or times decrease.
 /// OSError
-///     File that cannot be read.
+///     If the file cannot be read.
 #[pyfunction]
 fn read_trajectory(source: &Bound<'_, PyAny>) -> PyResult<(&'static str, Trajectory)> {
     let source = Source::read(source)?;
@@ -112,9 +112,9 @@ fn read_trajectory(source: &Bound<'_, PyAny>) -> PyResult<(&'static str, Traject
 /// Raises
 /// ------
 /// ValueError
-///     Unknown format, or no times for TUM or EuRoC.
+///     If the format is unknown, or times are missing for TUM or EuRoC.
 /// OSError
-///     File that cannot be written.
+///     If the file cannot be written.
 #[pyfunction]
 #[pyo3(signature = (path, trajectory, format="tum"))]
 fn write_trajectory(

@@ -53,9 +53,9 @@ impl Mesh {
 /// ----------
 /// views : list of MvsView
 /// maps : list of DepthMap
-///     Those of `estimate_depth_maps`.
+///     See `estimate_depth_maps`.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : MeshOptions
 ///
 /// Returns
@@ -65,9 +65,9 @@ impl Mesh {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No pixel has a depth.
+///     If no pixel has a depth.
 /// ValueError
-///     Voxels too small for the scene.
+///     If the voxels are too small for the scene.
 #[pyfunction]
 #[pyo3(signature = (views, maps, *, progress=None, **options))]
 pub(super) fn mesh_depth_maps<'py>(

@@ -30,9 +30,9 @@ record! {
 /// ----------
 /// mesh : Mesh
 /// views : list of MvsView
-///     Those of `prepare_views`.
+///     See `prepare_views`.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : TextureOptions
 ///
 /// Returns
@@ -42,9 +42,9 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No views or no triangles.
+///     If there are no views or no triangles.
 /// ValueError
-///     Option out of range, or triangle of a vertex that does not exist.
+///     If an option is out of range, or a triangle refers to a missing vertex.
 #[pyfunction]
 #[pyo3(signature = (mesh, views, *, progress=None, **options))]
 pub(super) fn texture_mesh(

@@ -49,7 +49,7 @@ impl LeastMedian {
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : LeastMedianOptions
 ///     ``num_samples=500``, ``seed=0``.
 ///
@@ -60,11 +60,11 @@ impl LeastMedian {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No more data than a sample has.
+///     If ``num_data`` does not exceed ``sample_size``.
 /// epipole.DegenerateError
-///     No sample that gives a model.
+///     If no sample gives a model.
 /// ValueError
-///     ``num_samples`` of 0.
+///     If ``num_samples`` is 0.
 ///
 /// Notes
 /// -----

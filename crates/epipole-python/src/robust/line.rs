@@ -24,9 +24,9 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 points.
+///     If there are fewer than 2 points.
 /// epipole.DegenerateError
-///     Equal points, or points that spread equally in all directions.
+///     If the points are equal, or spread equally in all directions.
 #[pyfunction]
 pub(super) fn fit_line_total_least_squares<'py>(
     points: &Bound<'py, PyAny>,
@@ -52,11 +52,11 @@ pub(super) fn fit_line_total_least_squares<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 points.
+///     If there are fewer than 2 points.
 /// epipole.DegenerateError
-///     Equal points, or points that spread equally in all directions.
+///     If the points are equal, or spread equally in all directions.
 /// ValueError
-///     ``width_px`` not above 0.
+///     If ``width_px`` is not above 0.
 #[pyfunction]
 pub(super) fn fit_line_huber<'py>(
     points: &Bound<'py, PyAny>,
@@ -73,9 +73,9 @@ pub(super) fn fit_line_huber<'py>(
 /// points : array_like, shape (N, 2)
 ///     Pixels.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -85,13 +85,13 @@ pub(super) fn fit_line_huber<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 points.
+///     If there are fewer than 2 points.
 /// epipole.DegenerateError
-///     Equal points.
+///     If the points are equal.
 /// epipole.NoConsensusError
-///     No line with 2 inliers.
+///     If no line has 2 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 ///
 /// Examples
 /// --------

@@ -31,7 +31,8 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     ``inlier_ratio`` outside [0, 1], ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+///     If ``inlier_ratio`` is outside [0, 1], ``sample_size`` is 0, or ``confidence`` is outside
+///     (0, 1).
 ///
 /// Examples
 /// --------
@@ -61,9 +62,10 @@ fn num_trials_with_replacement(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer data than a sample has.
+///     If there are fewer data than a sample needs.
 /// ValueError
-///     ``num_inliers`` above ``num_data``, ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+///     If ``num_inliers`` is above ``num_data``, ``sample_size`` is 0, or ``confidence`` is outside
+///     (0, 1).
 #[pyfunction]
 fn num_trials_without_replacement(
     num_inliers: usize,

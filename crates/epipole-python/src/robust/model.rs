@@ -185,9 +185,9 @@ impl Estimator for Callables {
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -196,11 +196,11 @@ impl Estimator for Callables {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer data than a sample has.
+///     If there are fewer data than a sample needs.
 /// epipole.NoConsensusError
-///     No model with as many inliers as a sample has.
+///     If every model has fewer inliers than a sample has data.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 ///
 /// Notes
 /// -----

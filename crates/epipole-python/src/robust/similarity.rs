@@ -94,11 +94,11 @@ impl PlaneSimilarity {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 matches.
+///     If there are fewer than 2 matches.
 /// epipole.DegenerateError
-///     All points of image 1 equal.
+///     If all points of image 1 are equal.
 /// ValueError
-///     Coordinate beyond 1e9 pixels.
+///     If a coordinate is beyond 1e9 pixels.
 ///
 /// Examples
 /// --------
@@ -122,9 +122,9 @@ pub(super) fn fit_similarity(
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : RansacOptions
-///     Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 ///
 /// Returns
 /// -------
@@ -134,11 +134,11 @@ pub(super) fn fit_similarity(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 different matches.
+///     If there are fewer than 2 different matches.
 /// epipole.NoConsensusError
-///     No similarity with 2 inliers.
+///     If no similarity has 2 inliers.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 pub(super) fn estimate_similarity(

@@ -66,9 +66,9 @@ fn alignment_kind(kind: Option<&Bound<'_, PyAny>>) -> PyResult<AlignmentKind> {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 points.
+///     If there are fewer than 3 points.
 /// epipole.DegenerateError
-///     Points of either set equal or on one line.
+///     If the points of either set are equal or on a line.
 ///
 /// Examples
 /// --------
@@ -105,9 +105,9 @@ pub(super) fn align_points(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 points.
+///     If there are fewer than 3 points.
 /// epipole.DegenerateError
-///     Points of either set equal or on one line.
+///     If the points of either set are equal or on a line.
 #[pyfunction]
 #[pyo3(signature = (estimated, truth, kind=None))]
 pub(super) fn absolute_trajectory_error(
@@ -138,9 +138,9 @@ pub(super) fn absolute_trajectory_error(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No more poses than ``step``.
+///     If there are no more poses than ``step``.
 /// ValueError
-///     ``step`` of 0.
+///     If ``step`` is 0.
 #[pyfunction]
 #[pyo3(signature = (estimated, truth, step=1))]
 pub(super) fn relative_pose_error(

@@ -93,9 +93,9 @@ impl BalProblem {
     /// Raises
     /// ------
     /// ValueError
-    ///     Loss width not above 0.
+    ///     If the loss width is not above 0.
     /// IndexError
-    ///     Observation of a camera or point that does not exist.
+    ///     If an observation refers to a missing camera or point.
     #[pyo3(signature = (loss=None))]
     fn cost(&self, loss: Option<&Bound<'_, PyAny>>) -> PyResult<f64> {
         let loss = options::loss(loss)?;
@@ -117,9 +117,9 @@ impl BalProblem {
 /// problem : BalProblem
 ///     It is not changed.
 /// loss : str or dict, optional
-///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : LmOptions
 ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
 ///     ``initial_damping``, ``patience``.
@@ -132,10 +132,10 @@ impl BalProblem {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No observations.
+///     If there are no observations.
 /// ValueError
-///     Observation of a camera or point that does not exist, loss width not above 0, or no finite
-///     cost at the start.
+///     If an observation refers to a missing camera or point, the loss width is not above 0, or the
+///     initial cost is not finite.
 #[pyfunction]
 #[pyo3(signature = (problem, *, loss=None, progress=None, **options))]
 pub(super) fn adjust_bal(

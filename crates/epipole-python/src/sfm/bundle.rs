@@ -172,7 +172,7 @@ impl Bundle {
     /// Raises
     /// ------
     /// IndexError
-    ///     Observation that does not exist, or whose camera or point does not.
+    ///     If the observation does not exist, or its camera or point does not.
     fn residual_px<'py>(
         &self,
         py: Python<'py>,
@@ -254,7 +254,7 @@ pub(super) fn plain_options<'py>(
 /// bundle : Bundle
 ///     It is not changed.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : BundleOptions
 ///     ``loss``, of pixels; ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
 ///     ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``; ``held_cameras`` and
@@ -269,12 +269,13 @@ pub(super) fn plain_options<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No observations.
+///     If there are no observations.
 /// epipole.DegenerateError
-///     Cameras of one lens number with different lenses.
+///     If cameras with the same lens number have different lenses.
 /// ValueError
-///     Observation of a camera, point or sensor that does not exist, a lens number out of range,
-///     loss width or standard deviation not above 0, or no finite cost at the start.
+///     If an observation refers to a missing camera, point or sensor, a lens number is out of
+///     range, the loss width or a standard deviation is not above 0, or the initial cost is not
+///     finite.
 #[pyfunction]
 #[pyo3(signature = (bundle, *, progress=None, **options))]
 pub(super) fn adjust_bundle(

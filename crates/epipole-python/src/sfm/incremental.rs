@@ -29,7 +29,7 @@ use std::sync::Mutex;
 /// Raises
 /// ------
 /// ValueError
-///     Unknown ``kind``, or arguments that do not fit it.
+///     If ``kind`` is unknown, or the arguments do not fit it.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(super) struct SfmStep(pub(super) sfm::SfmStep);
@@ -187,7 +187,7 @@ impl SfmResult {
 /// ----------
 /// input : SfmInput
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
 ///     ``ransac``, a dict; ``max_registration_error_px``, ``max_reprojection_error_px``,
 ///     ``min_num_inliers``, ``min_angle_deg``, ``min_start_angle_deg``, ``min_track_length``,
@@ -202,11 +202,11 @@ impl SfmResult {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images.
+///     If there are fewer than 2 images.
 /// epipole.DegenerateError
-///     Images of one lens number whose cameras have different lenses.
+///     If images with the same lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range, or a match of an image or keypoint that does not exist.
+///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyfunction]
 #[pyo3(signature = (input, *, progress=None, **options))]
 pub(super) fn reconstruct(
@@ -231,16 +231,16 @@ pub(super) fn reconstruct(
 /// progress : callable, optional
 ///     Called with the stage and the completed share while pairs are tested.
 /// **options : SfmOptions
-///     Those of `reconstruct`.
+///     See `reconstruct`.
 ///
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images.
+///     If there are fewer than 2 images.
 /// epipole.DegenerateError
-///     Images of one lens number whose cameras have different lenses.
+///     If images with the same lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range, or a match of an image or keypoint that does not exist.
+///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct IncrementalReconstruction(Mutex<Option<sfm::IncrementalReconstruction>>);
 
@@ -269,12 +269,12 @@ impl IncrementalReconstruction {
     /// Parameters
     /// ----------
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Work that is finished, or that another thread uses.
+    ///     If the job is finished, or another thread uses it.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
         with(&self.0, |work| {
@@ -287,7 +287,7 @@ impl IncrementalReconstruction {
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Work that is finished, or that another thread uses.
+    ///     If the job is finished, or another thread uses it.
     fn current(&self) -> PyResult<Option<Reconstruction>> {
         with(&self.0, |work| Ok(work.current().map(Reconstruction)))
     }
@@ -297,7 +297,7 @@ impl IncrementalReconstruction {
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Work that is finished, or that another thread uses.
+    ///     If the job is finished, or another thread uses it.
     fn finish(&self) -> PyResult<SfmResult> {
         Ok(SfmResult(take(&self.0)?.finish()))
     }
@@ -342,7 +342,7 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
 /// result : SfmResult
 ///     Result of `reconstruct`.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
 ///     Those given to `reconstruct`.
 ///
@@ -354,12 +354,12 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images.
+///     If there are fewer than 2 images.
 /// epipole.DegenerateError
-///     Images of one lens number whose cameras have different lenses.
+///     If images with the same lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range, a match of an image or keypoint that does not exist, or ``result`` of
-///     other images.
+///     If an option is out of range, a match refers to a missing image or keypoint, or ``result``
+///     belongs to other images.
 #[pyfunction]
 #[pyo3(signature = (input, result, *, progress=None, **options))]
 pub(super) fn why_unregistered(

@@ -16,7 +16,7 @@ use pyo3::types::PyDict;
 /// cam_from_world : list of RigidTransform or None
 ///     Pose of each image; one without takes no part.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
 ///     Those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
 ///     ``min_track_length``.
@@ -29,11 +29,11 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images or poses.
+///     If there are fewer than 2 images or poses.
 /// epipole.DegenerateError
-///     Images of one lens number whose cameras have different lenses.
+///     If images with the same lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range, or a match of an image or keypoint that does not exist.
+///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyfunction]
 #[pyo3(signature = (input, cam_from_world, *, progress=None, **options))]
 pub(super) fn triangulate_tracks(

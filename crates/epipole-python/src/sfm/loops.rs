@@ -95,7 +95,7 @@ record! {
 ///     Of standard deviations of a step: ``"trivial"``, or ``{"huber": {"width": 1.0}}``,
 ///     ``"cauchy"``, ``"truncated"`` likewise.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -104,9 +104,10 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 poses, or no loops.
+///     If there are fewer than 2 poses, or no loops.
 /// ValueError
-///     Loop of a frame that does not exist or with itself, or a weight or loss width not above 0.
+///     If a loop refers to a missing frame or joins a frame with itself, or a weight or loss width
+///     is not above 0.
 #[pyfunction]
 #[pyo3(signature = (world_from_cam, loops, motion=None, *, loss=None, progress=None))]
 pub(super) fn close_loops(
@@ -152,11 +153,11 @@ pub(super) fn close_loops(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 finite points.
+///     If there are fewer than 3 finite points.
 /// epipole.NoConsensusError
-///     Fewer than 4 points that agree.
+///     If fewer than 4 points agree.
 /// ValueError
-///     ``max_distance`` not above 0.
+///     If ``max_distance`` is not above 0.
 #[pyfunction]
 #[pyo3(signature = (from_points, to_points, max_distance, seed=0))]
 pub(super) fn estimate_similarity_of_points<'py>(
@@ -189,7 +190,7 @@ pub(super) fn estimate_similarity_of_points<'py>(
 ///     Of radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``, ``"cauchy"``,
 ///     ``"truncated"`` likewise.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -201,10 +202,10 @@ pub(super) fn estimate_similarity_of_points<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     No measurements.
+///     If there are no measurements.
 /// ValueError
-///     Index of no view, a view joined with itself, a matrix that is no rotation, or a loss width
-///     not above 0.
+///     If an index is out of range, a view is joined with itself, a matrix is not a rotation, or a
+///     loss width is not above 0.
 #[pyfunction]
 #[pyo3(signature = (count, pairs, to_from_from, *, loss=None, progress=None))]
 #[allow(clippy::type_complexity)]

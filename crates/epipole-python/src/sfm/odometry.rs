@@ -104,7 +104,7 @@ impl Right {
 /// input : SfmInput
 ///     Frames in order of time, and matches between frames that are near in time.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : OdometryOptions
 ///     ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes that
 ///     are refined together; ``final_adjustment``.
@@ -116,12 +116,12 @@ impl Right {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images.
+///     If there are fewer than 2 images.
 /// epipole.DegenerateError
-///     No two images with enough points under a sufficient angle, or images of one lens number
-///     whose cameras have different lenses.
+///     If no two images have enough points at a sufficient angle, or images with the same lens
+///     number have cameras with different lenses.
 /// ValueError
-///     Option out of range, or a match of an image or keypoint that does not exist.
+///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyfunction]
 #[pyo3(signature = (input, *, progress=None, **options))]
 pub(super) fn monocular_odometry(
@@ -151,9 +151,9 @@ pub(super) fn monocular_odometry(
 /// right_from_left : RigidTransform
 /// right_camera : Camera
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : OdometryOptions
-///     Those of `monocular_odometry`.
+///     See `monocular_odometry`.
 ///
 /// Returns
 /// -------
@@ -162,12 +162,12 @@ pub(super) fn monocular_odometry(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 images.
+///     If there are fewer than 2 images.
 /// epipole.DegenerateError
-///     Rig without a baseline, too few matches in the first frame, or images of one lens number
-///     whose cameras have different lenses.
+///     If the rig has no baseline, the first frame has too few matches, or images with the same
+///     lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range, or a match of an image or keypoint that does not exist.
+///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyfunction]
 #[pyo3(signature = (
     left, right, left_right, right_from_left, right_camera, *, progress=None, **options
@@ -212,19 +212,19 @@ impl Odometry {
     /// ----------
     /// input : SfmInput
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     /// **options : OdometryOptions
-    ///     Those of `monocular_odometry`.
+    ///     See `monocular_odometry`.
     ///
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 2 images.
+    ///     If there are fewer than 2 images.
     /// epipole.DegenerateError
-    ///     No two images with enough points under a sufficient angle, or images of one lens number
-    ///     whose cameras have different lenses.
+    ///     If no two images have enough points at a sufficient angle, or images with the same lens
+    ///     number have cameras with different lenses.
     /// ValueError
-    ///     Option out of range, or a match of an image or keypoint that does not exist.
+    ///     If an option is out of range, or a match refers to a missing image or keypoint.
     #[staticmethod]
     #[pyo3(signature = (input, *, progress=None, **options))]
     fn monocular(
@@ -251,19 +251,19 @@ impl Odometry {
     /// right_from_left : RigidTransform
     /// right_camera : Camera
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     /// **options : OdometryOptions
-    ///     Those of `monocular_odometry`.
+    ///     See `monocular_odometry`.
     ///
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 2 images.
+    ///     If there are fewer than 2 images.
     /// epipole.DegenerateError
-    ///     Rig without a baseline, too few matches in the first frame, or images of one lens number
-    ///     whose cameras have different lenses.
+    ///     If the rig has no baseline, the first frame has too few matches, or images with the same
+    ///     lens number have cameras with different lenses.
     /// ValueError
-    ///     Option out of range, or a match of an image or keypoint that does not exist.
+    ///     If an option is out of range, or a match refers to a missing image or keypoint.
     #[staticmethod]
     #[pyo3(signature = (
         left, right, left_right, right_from_left, right_camera, *, progress=None, **options
@@ -303,12 +303,12 @@ impl Odometry {
     /// Parameters
     /// ----------
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Work that is finished, or that another thread uses.
+    ///     If the job is finished, or another thread uses it.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
         with(&self.0, |work| {
@@ -321,7 +321,7 @@ impl Odometry {
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Work that is finished, or that another thread uses.
+    ///     If the job is finished, or another thread uses it.
     fn finish(&self) -> PyResult<OdometryResult> {
         Ok(OdometryResult(take(&self.0)?.finish()))
     }

@@ -79,7 +79,7 @@ impl Photo {
 /// ----------
 /// photo : Photo
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
 ///     ``features``, a dict of the options of `epipole.feature.detect_features`.
 ///
@@ -90,7 +90,7 @@ impl Photo {
 /// Raises
 /// ------
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (photo, *, progress=None, **options))]
 pub(super) fn photo_features(
@@ -113,7 +113,7 @@ pub(super) fn photo_features(
 /// ----------
 /// features : list of PhotoFeatures
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
 ///     ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
 ///     photos to match each with, 0 for all; ``best_first``.
@@ -125,9 +125,9 @@ pub(super) fn photo_features(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Numbers in one list of descriptors and bits in another.
+///     If some lists of descriptors are float and others binary.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (features, /, *, progress=None, **options))]
 pub(super) fn match_features(
@@ -150,9 +150,9 @@ pub(super) fn match_features(
 /// ----------
 /// left, right : PhotoFeatures
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
-///     Those of `match_features`.
+///     See `match_features`.
 ///
 /// Returns
 /// -------
@@ -161,9 +161,9 @@ pub(super) fn match_features(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Numbers in one list of descriptors and bits in the other.
+///     If one list of descriptors is float and the other binary.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (left, right, *, progress=None, **options))]
 pub(super) fn match_rectified<'py>(
@@ -187,7 +187,7 @@ pub(super) fn match_rectified<'py>(
 /// ----------
 /// photos : list of Photo
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
 ///     Those of `photo_features` and `match_features`.
 ///
@@ -199,9 +199,9 @@ pub(super) fn match_rectified<'py>(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 photos.
+///     If there are fewer than 2 photos.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (photos, *, progress=None, **options))]
 pub(super) fn match_photos(
@@ -229,9 +229,9 @@ pub(super) fn match_photos(
 /// photo_options : dict, optional
 ///     Options of `match_photos`.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     Those of `reconstruct`.
+///     See `reconstruct`.
 ///
 /// Returns
 /// -------
@@ -242,11 +242,11 @@ pub(super) fn match_photos(
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 2 photos.
+///     If there are fewer than 2 photos.
 /// epipole.DegenerateError
-///     Photos of one lens number whose cameras have different lenses.
+///     If photos with the same lens number have cameras with different lenses.
 /// ValueError
-///     Option out of range.
+///     If an option is out of range.
 #[pyfunction]
 #[pyo3(signature = (photos, cameras, *, photo_options=None, progress=None, **options))]
 pub(super) fn reconstruct_photos(

@@ -49,8 +49,8 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// ValueError
-///     Unknown ``kind``, an index of no vertex, a quaternion whose length is not 1, or a scale not
-///     above 0.
+///     If ``kind`` is unknown, a vertex index is out of range, the length of a quaternion is not 1,
+///     or a scale is not above 0.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(crate) struct PoseGraph(pub(crate) sfm::PoseGraph);
 
@@ -368,7 +368,7 @@ impl PoseGraph {
     /// Parameters
     /// ----------
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Returns
     /// -------
@@ -377,11 +377,11 @@ impl PoseGraph {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     No edges and no priors.
+    ///     If there are no edges and no priors.
     /// epipole.DegenerateError
-    ///     Vertex that hangs on measurements without weight.
+    ///     If a vertex depends on measurements without weight.
     /// ValueError
-    ///     Edge from a vertex to itself, or an information matrix that is asymmetric or has a
+    ///     If an edge joins a vertex with itself, or an information matrix is asymmetric or has a
     ///     negative eigenvalue.
     #[pyo3(signature = (*, progress=None))]
     fn initialize(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Self> {
@@ -395,9 +395,9 @@ impl PoseGraph {
     /// Parameters
     /// ----------
     /// loss : str or dict, optional
-    ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+    ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     /// **options : LmOptions
     ///     ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
     ///     ``initial_damping``, ``patience``.
@@ -410,10 +410,10 @@ impl PoseGraph {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     No edges and no priors.
+    ///     If there are no edges and no priors.
     /// ValueError
-    ///     Edge from a vertex to itself, an information matrix that is asymmetric or has a negative
-    ///     eigenvalue, or a loss width not above 0.
+    ///     If an edge joins a vertex with itself, an information matrix is asymmetric or has a
+    ///     negative eigenvalue, or a loss width is not above 0.
     #[pyo3(signature = (*, loss=None, progress=None, **options))]
     fn optimize(
         &self,

@@ -40,7 +40,7 @@ use pyo3::types::PyDict;
 /// Raises
 /// ------
 /// ValueError
-///     Track of a point that does not exist.
+///     If a track refers to a missing point.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(crate) struct Reconstruction(pub(crate) sfm::Reconstruction);
@@ -180,7 +180,7 @@ impl Reconstruction {
     /// Raises
     /// ------
     /// IndexError
-    ///     Track of a keypoint that ``images`` do not have.
+    ///     If a track refers to a keypoint that is missing in ``images``.
     fn mean_reprojection_px(&self, images: Vec<SfmImage>) -> PyResult<f64> {
         let images = self.images(images)?;
         Ok(self.0.mean_reprojection_px(&images))
@@ -201,7 +201,7 @@ impl Reconstruction {
     /// Raises
     /// ------
     /// IndexError
-    ///     Track of a keypoint that ``images`` do not have.
+    ///     If a track refers to a keypoint that is missing in ``images``.
     fn to_bundle<'py>(
         &self,
         py: Python<'py>,
@@ -221,7 +221,7 @@ impl Reconstruction {
     /// camera : Camera
     ///     Camera of the photo.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     /// **options : LocalizeOptions
     ///     ``matching`` and ``ransac``, dicts; ``min_num_inliers``.
     ///
@@ -232,13 +232,13 @@ impl Reconstruction {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than ``min_num_inliers`` points that match or agree with a pose.
+    ///     If fewer than ``min_num_inliers`` points match or agree with a pose.
     /// epipole.DegenerateError
-    ///     Numbers in one list of descriptors and bits in another.
+    ///     If some lists of descriptors are float and others binary.
     /// epipole.NoConsensusError
-    ///     No pose with 3 inliers.
+    ///     If no pose has 3 inliers.
     /// ValueError
-    ///     Track of a keypoint that does not exist, or an option out of range.
+    ///     If a track refers to a missing keypoint, or an option is out of range.
     #[pyo3(signature = (features, photo, camera, *, progress=None, **options))]
     fn localize(
         &self,

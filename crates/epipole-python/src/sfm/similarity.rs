@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     ``scale`` not above 0.
+///     If ``scale`` is not above 0.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(crate) struct Similarity3(pub(crate) nalgebra::Similarity3<f64>);

@@ -69,7 +69,7 @@ pub(crate) fn give_tracks<'py, 'a>(
 /// Raises
 /// ------
 /// ValueError
-///     Match of an image or keypoint that does not exist, or of an image with itself.
+///     If a match refers to a missing image or keypoint, or joins an image with itself.
 #[pyfunction]
 pub(super) fn build_tracks(
     py: Python<'_>,
@@ -106,7 +106,7 @@ record! {
 /// cameras : tuple of Camera
 ///     Their cameras.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
 ///     Those of `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
 ///
@@ -118,7 +118,7 @@ record! {
 /// Raises
 /// ------
 /// ValueError
-///     Match of a keypoint that does not exist.
+///     If a match refers to a missing keypoint.
 #[pyfunction]
 #[pyo3(signature = (pair, images, cameras, *, progress=None, **options))]
 pub(super) fn verify_matches(

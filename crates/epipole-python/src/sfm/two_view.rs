@@ -45,7 +45,7 @@ record! {
 /// cam2_from_cam1 : RigidTransform
 ///     Motion to start from; the length of its translation does not matter.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 /// **options : TwoViewReconstructionOptions
 ///     ``min_angle_rad``, ``max_error_px``, ``min_num_points``; ``bundle``, a dict of the options
 ///     of `adjust_bundle`.
@@ -57,12 +57,12 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than ``min_num_points`` points left.
+///     If fewer than ``min_num_points`` points are left.
 /// epipole.DegenerateError
-///     Motion without translation.
+///     If the motion has no translation.
 /// ValueError
-///     ``min_angle_rad`` below 0, ``max_error_px`` not above 0, or an option of ``bundle`` out of
-///     range.
+///     If ``min_angle_rad`` is below 0, ``max_error_px`` is not above 0, or an option of ``bundle``
+///     is out of range.
 #[pyfunction]
 #[pyo3(signature = (
     pixels1, pixels2, camera1, camera2, cam2_from_cam1, *, progress=None, **options

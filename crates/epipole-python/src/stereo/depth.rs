@@ -88,9 +88,9 @@ impl PointCloud {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Single disparity not above 0.
+///     If a single disparity is given and is not above 0.
 /// ValueError
-///     Focal length or baseline not above 0.
+///     If the focal length or baseline is not above 0.
 ///
 /// Examples
 /// --------
@@ -136,9 +136,9 @@ pub(super) fn depth_from_disparity<'py>(
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     No possible depth, as ``disparity_px + error_px <= 0``.
+///     If no depth is possible, because ``disparity_px + error_px <= 0``.
 /// ValueError
-///     Focal length or baseline not above 0, or ``error_px`` below 0.
+///     If the focal length or baseline is not above 0, or ``error_px`` is below 0.
 #[pyfunction]
 pub(super) fn depth_interval(
     focal_px: f64,
@@ -173,7 +173,7 @@ pub(super) fn depth_interval(
 /// Raises
 /// ------
 /// ValueError
-///     Focal length or baseline not above 0.
+///     If the focal length or baseline is not above 0.
 #[pyfunction]
 pub(super) fn depth_image<'py>(
     disparity: &Bound<'py, PyAny>,

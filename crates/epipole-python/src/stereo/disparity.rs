@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 /// range_px : float
 ///     Neighbors are connected if they differ by at most this, pixels, >= 0.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------
@@ -26,7 +26,7 @@ use pyo3::prelude::*;
 /// Raises
 /// ------
 /// ValueError
-///     ``range_px`` below 0.
+///     If ``range_px`` is below 0.
 #[pyfunction]
 #[pyo3(signature = (disparity, min_size, range_px, *, progress=None))]
 pub(super) fn remove_speckles<'py>(
@@ -52,7 +52,7 @@ pub(super) fn remove_speckles<'py>(
 /// left : array_like, shape (H, W)
 ///     Gray image that the disparities belong to, uint8 or float in [0, 1].
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 ///
 /// Returns
 /// -------

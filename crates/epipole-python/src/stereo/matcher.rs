@@ -107,7 +107,7 @@ macro_rules! matcher {
             ///     Rectified gray images: matches share a row. Both uint8, or both float of any
             ///     range, whose smallest and largest value become 0 and 255.
             /// progress : callable, optional
-            ///     Called with the stage and the completed share.
+            ///     Called with the stage and the completed fraction.
             ///
             /// Returns
             /// -------
@@ -117,7 +117,8 @@ macro_rules! matcher {
             /// Raises
             /// ------
             /// ValueError
-            ///     Option out of range, or too many pixels times disparities for the memory.
+            ///     If an option is out of range, or the volume (pixels × disparities) is too large
+            ///     for memory.
             #[pyo3(signature = (left, right, *, progress=None))]
             fn compute<'py>(
                 &self,

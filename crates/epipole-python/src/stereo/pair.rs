@@ -24,7 +24,7 @@ type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
 /// photograph1, photograph2 : array_like, shape (H, W, 3)
 ///     uint8, of the sizes of the rig's cameras.
 /// progress : callable, optional
-///     Called with the stage and the completed share.
+///     Called with the stage and the completed fraction.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct RectifiedPair {
     rig: Py<Rectification>,
@@ -113,7 +113,8 @@ impl RectifiedPair {
     /// Raises
     /// ------
     /// ValueError
-    ///     Option of the matcher out of range, or disparities of another size than the images.
+    ///     If an option of the matcher is out of range, or the disparities differ in size from the
+    ///     images.
     #[pyo3(signature = (matching, *, progress=None))]
     fn disparity<'py>(
         &self,
@@ -138,7 +139,7 @@ impl RectifiedPair {
     /// disparity : array_like of float, shape (h, w)
     ///     Pixels; NaN where unknown.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Returns
     /// -------

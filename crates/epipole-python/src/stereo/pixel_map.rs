@@ -54,14 +54,14 @@ impl PixelMap {
     /// out_from_source : array_like, shape (3, 3)
     ///     Pixels of the source to pixels of the result, up to scale.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Matrix without an inverse.
+    ///     If the matrix has no inverse.
     /// ValueError
-    ///     Result of more than 2**32 pixels.
+    ///     If the result has more than 2**32 pixels.
     #[staticmethod]
     #[pyo3(signature = (width, height, out_from_source, *, progress=None))]
     fn from_homography(
@@ -122,12 +122,12 @@ impl PixelMap {
     /// ----------
     /// source : array_like, shape (h, w) or (h, w, 3)
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Returns
     /// -------
     /// ndarray of uint8 or float32, shape (H, W) or (H, W, 3)
-    ///     uint8 for uint8, else float32.
+    ///     uint8 for a uint8 image, else float32.
     #[pyo3(signature = (source, *, progress=None))]
     fn warp<'py>(
         &self,

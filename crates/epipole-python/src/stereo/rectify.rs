@@ -76,7 +76,7 @@ impl PixelRect {
 /// Raises
 /// ------
 /// ValueError
-///     Matrix in ``rect_from_cam`` that is no rotation.
+///     If a matrix in ``rect_from_cam`` is not a rotation.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct Rectification(pub(super) stereo::Rectification);
 
@@ -195,9 +195,9 @@ impl Rectification {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single pixel without a ray, or with one behind the rectified camera.
+    ///     If a single pixel is given and has no ray, or its ray is behind the rectified camera.
     /// ValueError
-    ///     ``index`` not 0 or 1.
+    ///     If ``index`` is not 0 or 1.
     fn rectify_pixel<'py>(
         &self,
         index: usize,
@@ -224,9 +224,9 @@ impl Rectification {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single pixel that the camera does not see.
+    ///     If a single pixel is given and the camera does not see it.
     /// ValueError
-    ///     ``index`` not 0 or 1.
+    ///     If ``index`` is not 0 or 1.
     fn source_pixel<'py>(
         &self,
         index: usize,
@@ -247,12 +247,12 @@ impl Rectification {
     /// index : int
     ///     0 for the first camera, 1 for the second.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share.
+    ///     Called with the stage and the completed fraction.
     ///
     /// Raises
     /// ------
     /// ValueError
-    ///     ``index`` not 0 or 1.
+    ///     If ``index`` is not 0 or 1.
     #[pyo3(signature = (index, *, progress=None))]
     fn map(&self, py: Python<'_>, index: usize, progress: Option<Py<PyAny>>) -> PyResult<PixelMap> {
         Ok(PixelMap(progress::run(py, progress, |monitor| {
@@ -275,7 +275,7 @@ impl Rectification {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Single point that a camera does not see.
+    ///     If a single point is given and a camera does not see it.
     fn disparity_of<'py>(&self, place: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let disparity = |x: &_| match self.0.disparity_of(&Point3::from(*x)) {
             Some((pixel, disparity)) => Ok(Vector3::new(pixel.x, pixel.y, disparity)),
@@ -298,7 +298,7 @@ impl Rectification {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 8 points that the first image shows.
+    ///     If the first image shows fewer than 8 points.
     fn disparity_range(&self, places: &Bound<'_, PyAny>) -> PyResult<(i32, i32)> {
         let range = self.0.disparity_range(&points3("places", places)?);
         Ok(range.or_raise()?.into())
@@ -339,10 +339,11 @@ fn unseen(what: &'static str) -> Error {
 /// Raises
 /// ------
 /// epipole.DegenerateError
-///     Cameras at the same place, a baseline more than 60° off the image plane, a photo that looks
-///     along the baseline, or a lens model that folds less than half-way to the border.
+///     If the cameras are at the same position, the baseline is more than 60° off the image plane,
+///     a camera looks along the baseline, or the lens model folds less than halfway to the border.
 /// ValueError
-///     Cameras of different image size, ``alpha`` outside [0, 1], or a side of less than 2 pixels.
+///     If the cameras differ in image size, ``alpha`` is outside [0, 1], or a side is shorter than
+///     2 pixels.
 #[pyfunction]
 #[pyo3(signature = (camera1, camera2, cam2_from_cam1, **options))]
 pub(super) fn rectify_calibrated(
@@ -379,7 +380,7 @@ pub(super) fn rectify_calibrated(
 /// Raises
 /// ------
 /// ValueError
-///     Focal length or baseline not above 0.
+///     If the focal length or baseline is not above 0.
 #[pyfunction]
 pub(super) fn q_from_rig(
     py: Python<'_>,

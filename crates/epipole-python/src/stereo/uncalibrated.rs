@@ -40,11 +40,12 @@ record! {
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer than 3 matches.
+///     If there are fewer than 3 matches.
 /// epipole.DegenerateError
-///     Epipole in or near its photo, matrix of rank 1 or 0, or all matches on one line.
+///     If an epipole is in or near its photo, the matrix has rank 1 or 0, or all matches are on a
+///     line.
 /// ValueError
-///     Side of less than 2 pixels.
+///     If a side is shorter than 2 pixels.
 #[pyfunction]
 pub(super) fn rectify_uncalibrated(
     fundamental: &Bound<'_, PyAny>,

@@ -40,14 +40,14 @@ use std::sync::Arc;
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
 /// **options : RansacOptions
-///     Those of `ransac`.
+///     See `ransac`.
 ///
 /// Raises
 /// ------
 /// epipole.TooFewError
-///     Fewer data than a sample has.
+///     If there are fewer data than a sample needs.
 /// ValueError
-///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 ///
 /// Notes
 /// -----
@@ -103,7 +103,7 @@ impl Ransac {
     /// points : array_like, shape (N, 2)
     ///     Pixels.
     /// **options : RansacOptions
-    ///     Those of `ransac`.
+    ///     See `ransac`.
     ///
     /// Returns
     /// -------
@@ -113,11 +113,11 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 2 points.
+    ///     If there are fewer than 2 points.
     /// epipole.DegenerateError
-    ///     Equal points.
+    ///     If the points are equal.
     /// ValueError
-    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     #[staticmethod]
     #[pyo3(signature = (points, **options))]
     fn line(points: &Bound<'_, PyAny>, options: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
@@ -144,7 +144,7 @@ impl Ransac {
     /// pixels1, pixels2 : array_like, shape (N, 2)
     ///     Matches.
     /// **options : RansacOptions
-    ///     Those of `ransac`.
+    ///     See `ransac`.
     ///
     /// Returns
     /// -------
@@ -154,9 +154,9 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 2 different matches.
+    ///     If there are fewer than 2 different matches.
     /// ValueError
-    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn similarity(
@@ -191,7 +191,7 @@ impl Ransac {
     /// pixels1, pixels2 : array_like, shape (N, 2)
     ///     Matches.
     /// **options : RansacOptions
-    ///     Those of `ransac`.
+    ///     See `ransac`.
     ///
     /// Returns
     /// -------
@@ -201,11 +201,11 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 7 different matches.
+    ///     If there are fewer than 7 different matches.
     /// epipole.DegenerateError
-    ///     All pixels of an image on one line.
+    ///     If all pixels of an image are on a line.
     /// ValueError
-    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn fundamental(
@@ -231,7 +231,7 @@ impl Ransac {
     /// pixels1, pixels2 : array_like, shape (N, 2)
     ///     Matches.
     /// **options : RansacOptions
-    ///     Those of `ransac`.
+    ///     See `ransac`.
     ///
     /// Returns
     /// -------
@@ -241,11 +241,11 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.TooFewError
-    ///     Fewer than 4 different matches.
+    ///     If there are fewer than 4 different matches.
     /// epipole.DegenerateError
-    ///     All pixels of an image on one line.
+    ///     If all pixels of an image are on a line.
     /// ValueError
-    ///     ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     #[staticmethod]
     #[pyo3(signature = (pixels1, pixels2, **options))]
     fn homography(
@@ -274,9 +274,9 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.DegenerateError
-    ///     Line (0, 0, c), in a run of `line`.
+    ///     If the line of a run of `line` is (0, 0, c).
     /// RuntimeError
-    ///     Run that is finished, or one that another thread uses.
+    ///     If the run is finished, or another thread uses it.
     fn start_from(&self, model: &Bound<'_, PyAny>) -> PyResult<()> {
         with(&self.0, |run| run.start_from(model))
     }
@@ -286,7 +286,7 @@ impl Ransac {
     /// Raises
     /// ------
     /// RuntimeError
-    ///     Run that is finished, or one that another thread uses.
+    ///     If the run is finished, or another thread uses it.
     fn step(&self, py: Python<'_>) -> PyResult<Option<Trial>> {
         with(&self.0, |run| run.step(py))
     }
@@ -345,9 +345,9 @@ impl Ransac {
     /// Raises
     /// ------
     /// epipole.NoConsensusError
-    ///     No model with as many inliers as a sample has.
+    ///     If every model has fewer inliers than a sample has data.
     /// RuntimeError
-    ///     Run that is finished, or one that another thread uses.
+    ///     If the run is finished, or another thread uses it.
     fn finish(&self, py: Python<'_>) -> PyResult<RansacReport> {
         take(&self.0)?.finish(py)
     }
