@@ -18,7 +18,7 @@ record! {
         cam_from_world: RigidTransform,
         /// Focal length, pixels.
         focal_px: f64,
-        /// Standard deviation of the focal length, pixels; None if it makes no difference.
+        /// Standard deviation of the focal length, pixels; None if the focal length has no effect.
         focal_std_px: Option<f64>,
     }
 }
@@ -46,7 +46,7 @@ impl AbsolutePoseWithFocal {
     }
 }
 
-/// Pose of a calibrated camera from points with outliers, by RANSAC.
+/// Estimates the pose of a calibrated camera from points with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -94,7 +94,7 @@ fn estimate_absolute_pose(
     )
 }
 
-/// Pose and focal length of a camera from points with outliers, by RANSAC.
+/// Estimates pose and focal length of a camera from points with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -147,7 +147,7 @@ fn estimate_absolute_pose_and_focal(
     )
 }
 
-/// Poses of three rays and their points.
+/// Computes the poses from three rays and their points.
 ///
 /// Parameters
 /// ----------
@@ -171,7 +171,7 @@ fn pose_p3p(
     Ok(poses.into_iter().map(RigidTransform::from).collect())
 }
 
-/// Poses and focal lengths of four points.
+/// Computes the poses and focal lengths from four points.
 ///
 /// Parameters
 /// ----------
@@ -197,12 +197,12 @@ fn pose_p4pf(
     Ok(poses.into_iter().map(AbsolutePoseWithFocal::from).collect())
 }
 
-/// Pose by linear least squares (DLT), without outliers.
+/// Computes a pose by linear least squares (DLT), without outliers.
 ///
 /// Parameters
 /// ----------
 /// points_in_world : array_like, shape (N, 3)
-///     N >= 6, not in a plane.
+///     N >= 6, not on a plane.
 /// pixels : array_like, shape (N, 2)
 /// intrinsics : Intrinsics
 ///
@@ -230,7 +230,7 @@ fn pose_dlt(
         .into())
 }
 
-/// Pose with the least reprojection error, without outliers.
+/// Computes the pose with the least reprojection error, without outliers.
 ///
 /// Parameters
 /// ----------
@@ -265,12 +265,12 @@ fn fit_absolute_pose(
     )
 }
 
-/// Second pose that explains a plane nearly as well, if there is one.
+/// Finds a second pose that explains a plane nearly as well.
 ///
 /// Parameters
 /// ----------
 /// cam_from_world : RigidTransform
-///     Pose found.
+///     Known pose.
 /// points_in_world : array_like, shape (N, 3)
 /// pixels : array_like, shape (N, 2)
 /// camera : Camera
@@ -299,7 +299,7 @@ fn find_flipped_pose(
     Ok(flipped.or_raise()?.map(RigidTransform::from))
 }
 
-/// Pose refined by the reprojection errors.
+/// Refines a pose by minimizing the reprojection errors.
 ///
 /// Parameters
 /// ----------
@@ -340,7 +340,7 @@ fn refine_absolute_pose(
     Ok(refined.or_raise()?.into())
 }
 
-/// Distances between projected points and pixels.
+/// Computes the distances between projected points and pixels.
 ///
 /// Parameters
 /// ----------

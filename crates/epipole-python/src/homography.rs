@@ -17,14 +17,14 @@ use pyo3::types::PyDict;
 record! {
     /// Motion and plane of a homography.
     "epipole.homography" PlaneMotion {
-        /// Motion; the translation is in units of the plane's distance from camera 1.
+        /// Motion; its translation is in units of the plane's distance from camera 1.
         cam2_from_cam1: RigidTransform,
         /// Unit normal of the plane in the frame of camera 1, shape (3,).
         normal_in_cam1: Py<PyArray1<f64>>,
     }
 }
 
-/// Homography of matches with outliers, by RANSAC.
+/// Estimates a homography from matches with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -69,7 +69,7 @@ fn estimate_homography(
     )
 }
 
-/// Homography between the rays of two calibrated cameras, by RANSAC.
+/// Estimates a homography between the rays of two calibrated cameras, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -84,7 +84,7 @@ fn estimate_homography(
 /// Returns
 /// -------
 /// RansacReport of ndarray
-///     Its model is H of rays, shape (3, 3).
+///     Its model is the H that maps rays, shape (3, 3).
 ///
 /// Raises
 /// ------
@@ -122,7 +122,7 @@ fn estimate_homography_calibrated(
     )
 }
 
-/// Homographies of four matches.
+/// Computes the homographies of four matches.
 ///
 /// Parameters
 /// ----------
@@ -145,7 +145,7 @@ fn homography_4point<'py>(
     )
 }
 
-/// Homography of matches by linear least squares, without outliers.
+/// Fits a homography to matches by linear least squares, without outliers.
 ///
 /// Parameters
 /// ----------
@@ -175,7 +175,7 @@ fn fit_homography<'py>(
     )
 }
 
-/// Homography refined from matches.
+/// Refines a homography from matches.
 ///
 /// Parameters
 /// ----------
@@ -211,7 +211,7 @@ fn refine_homography<'py>(
     from_matrix(pixels1.py(), &refined)
 }
 
-/// Pixels of image 2 where a homography maps pixels of image 1.
+/// Maps pixels of image 1 to image 2 by a homography.
 ///
 /// Parameters
 /// ----------
@@ -248,7 +248,7 @@ fn transfer<'py>(
     Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), transfer)
 }
 
-/// Distances in image 2 between mapped pixels of image 1 and their matches.
+/// Computes the distances in image 2 between mapped pixels and their matches.
 ///
 /// Parameters
 /// ----------
@@ -271,7 +271,7 @@ fn transfer_error_px<'py>(
     })
 }
 
-/// Sampson distances of matches from a homography.
+/// Computes the Sampson distances of matches from a homography.
 ///
 /// Parameters
 /// ----------
@@ -294,7 +294,7 @@ fn homography_sampson_px<'py>(
     })
 }
 
-/// Motions and planes of a homography.
+/// Decomposes a homography into its possible motions and planes.
 ///
 /// Parameters
 /// ----------
@@ -325,7 +325,7 @@ fn decompose_homography(
     Ok(motions.into_iter().map(to_python).collect())
 }
 
-/// Homography of a plane between two cameras.
+/// Computes the homography of a plane between two cameras.
 ///
 /// Parameters
 /// ----------

@@ -11,7 +11,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
 record! {
-    /// Point of several views.
+    /// Point triangulated from several views.
     "epipole.triangulation" NviewPoint {
         /// Point, shape (3,).
         point_in_world: Py<PyArray1<f64>>,
@@ -20,7 +20,7 @@ record! {
     }
 }
 
-/// Points of two views by linear least squares (DLT).
+/// Triangulates points of two views by linear least squares (DLT).
 ///
 /// Parameters
 /// ----------
@@ -54,7 +54,7 @@ fn triangulate_dlt<'py>(
     })
 }
 
-/// Points of two views: where rays come nearest to each other.
+/// Triangulates points of two views: the midpoints where rays are nearest to each other.
 ///
 /// Parameters
 /// ----------
@@ -93,7 +93,7 @@ fn triangulate_midpoint<'py>(
     })
 }
 
-/// Points of two views: midpoints of rays, weighted by inverse depth.
+/// Triangulates points of two views: midpoints of rays, weighted by inverse depth.
 ///
 /// Parameters
 /// ----------
@@ -104,7 +104,7 @@ fn triangulate_midpoint<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3,) or (N, 3)
-///     As `triangulate_midpoint`.
+///     Same as for `triangulate_midpoint`.
 ///
 /// Raises
 /// ------
@@ -125,7 +125,7 @@ fn triangulate_weighted_midpoint<'py>(
     })
 }
 
-/// Points of two views with the least sum of angular errors.
+/// Triangulates points of two views with the smallest sum of angular errors.
 ///
 /// Parameters
 /// ----------
@@ -136,7 +136,7 @@ fn triangulate_weighted_midpoint<'py>(
 /// Returns
 /// -------
 /// ndarray, shape (3,) or (N, 3)
-///     As `triangulate_midpoint`.
+///     Same as for `triangulate_midpoint`.
 ///
 /// Raises
 /// ------
@@ -157,7 +157,7 @@ fn triangulate_angular<'py>(
     })
 }
 
-/// Points of two views with the least reprojection error.
+/// Triangulates points of two views with the smallest reprojection error.
 ///
 /// Parameters
 /// ----------
@@ -187,7 +187,7 @@ fn triangulate_optimal<'py>(
     })
 }
 
-/// Nearest matches that satisfy the epipolar constraint exactly.
+/// Computes the nearest matches that satisfy the epipolar constraint exactly.
 ///
 /// Parameters
 /// ----------
@@ -217,14 +217,14 @@ fn correct_matches<'py>(
     })
 }
 
-/// Point of several views by linear least squares.
+/// Triangulates a point of several views by linear least squares.
 ///
 /// Parameters
 /// ----------
 /// cameras : sequence of PosedCamera
 ///     At least 2.
 /// pixels : array_like, shape (N, 2)
-///     Pixel of each camera.
+///     Pixel in each camera.
 ///
 /// Returns
 /// -------
@@ -246,14 +246,14 @@ fn triangulate_nview_dlt<'py>(
     Ok(from_vector(pixels.py(), &found.or_raise()?.coords))
 }
 
-/// Point of several views with the least reprojection error.
+/// Triangulates a point of several views with the smallest reprojection error.
 ///
 /// Parameters
 /// ----------
 /// cameras : sequence of PosedCamera
 ///     At least 2.
 /// pixels : array_like, shape (N, 2)
-///     Pixel of each camera.
+///     Pixel in each camera.
 /// loss : str or dict, optional
 ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 ///
@@ -287,7 +287,7 @@ fn triangulate_nview(
     })
 }
 
-/// Angle at which the rays to a point meet.
+/// Computes the angle between the rays that meet in a point.
 ///
 /// Parameters
 /// ----------
@@ -313,7 +313,7 @@ fn triangulation_angle_rad<'py>(
     })
 }
 
-/// Covariance of a triangulated point, to first order.
+/// Computes the covariance of a triangulated point, to first order.
 ///
 /// Parameters
 /// ----------

@@ -23,31 +23,31 @@ record! {
         kind: String,
         /// Chosen matrix, shape (3, 3).
         model: Py<PyArray2<f64>>,
-        /// Whether model and homography are of rays, not of pixels: lenses with distortion.
+        /// Whether `model` and `homography` apply to rays, not pixels: lenses with distortion.
         is_of_rays: bool,
         /// F, shape (3, 3), or None.
         fundamental: Option<Py<PyArray2<f64>>>,
         /// H, shape (3, 3), or None.
         homography: Option<Py<PyArray2<f64>>>,
-        /// Motion of calibrated views, translation of length 1, or 0 for a rotation; or None.
+        /// Motion of calibrated views, or None. Its translation has length 1, or 0 for a rotation.
         cam2_from_cam1: Option<RigidTransform>,
-        /// Second motion that explains a plane as well, or None.
+        /// Second motion that explains a plane equally well, or None.
         other_cam2_from_cam1: Option<RigidTransform>,
         /// Whether each match is an inlier, boolean array of shape (N,).
         inliers: Py<PyArray1<bool>>,
         /// Number of inliers.
         num_inliers: usize,
-        /// Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels.
+        /// Number of matches ignored because a coordinate is infinite or beyond 1e9 pixels.
         num_left_out: usize,
         /// Threshold of F and E, pixels.
         max_error_px: f64,
-        /// Samples drawn, over all models tried.
+        /// Number of samples drawn for all models tried.
         iterations: usize,
         /// Number of samples required for the model.
         required_iterations: u64,
-        /// Why the search ended: "confident", "exhausted" or "interrupted".
+        /// Reason the search ended: "confident", "exhausted" or "interrupted".
         stop: String,
-        /// Median angle at which rays of inliers meet, radians, or None.
+        /// Median triangulation angle of the inliers, radians, or None.
         median_triangulation_angle_rad: Option<f64>,
     }
 }
@@ -98,25 +98,25 @@ record! {
 }
 
 record! {
-    /// Rotation and change of the focal length that explain nearly all inliers.
+    /// Rotation and focal length change that explain nearly all inliers.
     "epipole.two_view" TurnAndFocal {
         /// Rotation, with a translation of 0.
         cam2_from_cam1: RigidTransform,
-        /// Factor by which both focal lengths differ from those given.
+        /// Ratio of the actual to the given focal lengths, for both cameras.
         focal_factor: f64,
-        /// Number of different matches that it explains.
+        /// Number of unique matches that it explains.
         num_explained: usize,
-        /// Number of different matches.
+        /// Number of unique matches.
         num_inliers: usize,
     }
 }
 
 record! {
-    /// Why inliers do not determine F.
+    /// Reason the inliers do not determine F.
     "epipole.two_view" Degeneracy {
         /// "unmoved" or "homography".
         kind: String,
-        /// Number of inliers that did not move, or that a homography explains.
+        /// Number of inliers that did not move or that a homography explains.
         num_explained: usize,
         /// Number of inliers.
         num_inliers: usize,
@@ -141,7 +141,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
     }
 }
 
-/// Geometry of two views without calibration: F or H.
+/// Estimates the geometry of two uncalibrated views: F or H.
 ///
 /// Parameters
 /// ----------
@@ -151,7 +151,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 ///     Called with the stage and the completed fraction.
 /// **options : TwoViewOptions
 ///     ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
-///     ``ransac``, a dict of the options of RANSAC.
+///     ``ransac``, a dict of RANSAC options.
 ///
 /// Returns
 /// -------
@@ -184,7 +184,7 @@ fn estimate_two_view(
     report(py, found)
 }
 
-/// Geometry of two calibrated views: E, H or a rotation, and the motion.
+/// Estimates the geometry of two calibrated views: E, H or a rotation, and the motion.
 ///
 /// Parameters
 /// ----------
@@ -231,7 +231,7 @@ fn estimate_two_view_calibrated(
     report(py, found)
 }
 
-/// Rotation between two calibrated views from the same place, by RANSAC.
+/// Estimates the rotation between two calibrated views from the same position, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -278,7 +278,7 @@ fn estimate_rotation(
     )
 }
 
-/// Why the inliers of F do not determine it: nothing moved, or a homography explains them.
+/// Checks whether the inliers determine F: not if nothing moved or a homography explains them.
 ///
 /// Parameters
 /// ----------
@@ -312,7 +312,7 @@ fn find_degeneracy(
     Ok(found.or_raise()?.map(degeneracy))
 }
 
-/// Whether nearly all inliers are at the same pixel in both images.
+/// Checks whether nearly all inliers are at the same pixel in both images.
 ///
 /// Parameters
 /// ----------
@@ -349,7 +349,7 @@ fn find_unmoved(
     Ok(found.or_raise()?.map(degeneracy))
 }
 
-/// Rotation that explains nearly all inliers of calibrated views, if there is one.
+/// Finds a rotation that explains nearly all inliers of calibrated views.
 ///
 /// Parameters
 /// ----------
@@ -391,7 +391,7 @@ fn find_explaining_turn(
     }))
 }
 
-/// Rotation and change of the focal length that explain nearly all inliers, if there are any.
+/// Finds a rotation and a focal length change that explain nearly all inliers.
 ///
 /// Parameters
 /// ----------
