@@ -13,18 +13,18 @@ record! {
     "epipole.robust" LeastMedian {
         /// Model, fitted to its inliers.
         model: Py<PyAny>,
-        /// Median error of the best model of a sample, in the unit of the errors.
+        /// Median error of the best model from a sample, in the unit of the errors.
         median_px: f64,
-        /// Standard deviation of the noise that follows from the median, in the same unit.
+        /// Standard deviation of the noise, derived from the median, in the same unit.
         sigma_px: f64,
-        /// Number of data within 2.5 standard deviations of the model.
+        /// Number of data points within 2.5 standard deviations of the model.
         num_inliers: usize,
     }
 }
 
 #[pymethods]
 impl LeastMedian {
-    /// ``LeastMedian[MyModel]`` in annotations.
+    /// Supports ``LeastMedian[MyModel]`` in annotations.
     #[classmethod]
     fn __class_getitem__<'py>(
         cls: &Bound<'py, PyType>,
@@ -34,18 +34,18 @@ impl LeastMedian {
     }
 }
 
-/// Model of your own with the least median of squared errors; needs no threshold.
+/// Estimates a custom model by least median of squares, without a threshold.
 ///
 /// Parameters
 /// ----------
 /// num_data : int
-///     Number of data, less than half of them outliers.
+///     Number of data points, fewer than half of them outliers.
 /// sample_size : int
-///     Number of data in a minimal sample.
+///     Number of data points in a minimal sample.
 /// fit : callable
 ///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
 /// errors : callable
-///     ``errors(model)`` returns the errors of all data, shape (num_data,).
+///     ``errors(model)`` returns the errors of all data points, shape (num_data,).
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
 /// progress : callable, optional
@@ -68,7 +68,7 @@ impl LeastMedian {
 ///
 /// Notes
 /// -----
-/// An exception in a callable ends the run and is raised.
+/// An exception in a callable ends the run and propagates.
 ///
 /// Examples
 /// --------

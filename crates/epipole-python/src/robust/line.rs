@@ -9,7 +9,7 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Line with the least sum of squared distances.
+/// Fits the line with the smallest sum of squared distances.
 ///
 /// Parameters
 /// ----------
@@ -35,7 +35,7 @@ pub(super) fn fit_line_total_least_squares<'py>(
     Ok(from_vector(points.py(), &line.homogeneous()))
 }
 
-/// Line with the least sum of Huber losses of the distances.
+/// Fits the line with the smallest sum of Huber losses of the distances.
 ///
 /// Parameters
 /// ----------
@@ -66,7 +66,7 @@ pub(super) fn fit_line_huber<'py>(
     Ok(from_vector(points.py(), &line.homogeneous()))
 }
 
-/// Line of points with outliers, by RANSAC.
+/// Estimates a line from points with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------

@@ -14,7 +14,7 @@ use crate::options;
 use epipole::robust::{self, LeastMedianOptions, RansacOptions};
 use pyo3::prelude::*;
 
-/// Number of samples that suffices, if data are drawn with replacement (``w**s``).
+/// Returns the required number of samples if data are drawn with replacement (``w**s``).
 ///
 /// Parameters
 /// ----------
@@ -47,7 +47,7 @@ fn num_trials_with_replacement(
     robust::num_trials_with_replacement(inlier_ratio, sample_size, confidence).or_raise()
 }
 
-/// Number of samples that suffices, if data are drawn without replacement.
+/// Returns the required number of samples if data are drawn without replacement.
 ///
 /// Parameters
 /// ----------
@@ -77,13 +77,13 @@ fn num_trials_without_replacement(
         .or_raise()
 }
 
-/// Expected number of models with this support in data without structure, as log10.
+/// Returns the expected number of models with this support by chance, as log10.
 ///
 /// Parameters
 /// ----------
 /// num_inliers, num_data, sample_size, max_models : int
 /// chance : float
-///     Probability that an unrelated datum is an inlier.
+///     Probability that an unrelated data point fits a model.
 ///
 /// Returns
 /// -------

@@ -35,7 +35,7 @@ impl Raised {
         }
     }
 
-    /// The exception, if there is one, or else what the run found.
+    /// Returns the exception, if any, or else the result of the run.
     pub(super) fn or<T>(&self, found: PyResult<T>) -> PyResult<T> {
         match self.lock().take() {
             Some(error) => Err(error),
@@ -55,7 +55,7 @@ pub(super) struct Callables {
 }
 
 impl Callables {
-    /// Creates an estimator; returns the exceptions of its callables, too.
+    /// Creates an estimator and the store for exceptions of its callables.
     pub(super) fn new(
         num_data: usize,
         sample_size: usize,
@@ -75,7 +75,7 @@ impl Callables {
         (model, raised)
     }
 
-    /// Scores a model of the caller; none if `errors` raises.
+    /// Scores a model from the caller; none if `errors` raises.
     pub(super) fn model(&self, model: Py<PyAny>) -> Option<Arc<Scored>> {
         self.scored(|_| Ok(vec![model])).into_iter().next()
     }
@@ -169,18 +169,18 @@ impl Estimator for Callables {
     }
 }
 
-/// Model of your own by RANSAC.
+/// Estimates a custom model by RANSAC.
 ///
 /// Parameters
 /// ----------
 /// num_data : int
-///     Number of data.
+///     Number of data points.
 /// sample_size : int
-///     Number of data in a minimal sample.
+///     Number of data points in a minimal sample.
 /// fit : callable
 ///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
 /// errors : callable
-///     ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+///     ``errors(model)`` returns the errors of all data points, shape (num_data,), in the unit of
 ///     ``max_error_px``.
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
@@ -204,7 +204,7 @@ impl Estimator for Callables {
 ///
 /// Notes
 /// -----
-/// An exception in a callable ends the run and is raised. `Ransac` runs step by step.
+/// An exception in a callable ends the run and propagates. See `Ransac` for step-by-step runs.
 #[pyfunction]
 #[pyo3(signature = (num_data, sample_size, fit, errors, refine=None, *, progress=None, **options))]
 #[allow(clippy::too_many_arguments)]

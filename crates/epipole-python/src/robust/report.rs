@@ -13,34 +13,34 @@ record! {
     "epipole.robust" RansacReport {
         /// Best model.
         model: Py<PyAny>,
-        /// Whether each datum is an inlier, boolean array of shape (N,).
+        /// Whether each data point is an inlier, boolean array of shape (N,).
         inliers: Py<PyArray1<bool>>,
         /// Number of inliers.
         num_inliers: usize,
-        /// Number of inliers, equal data counted once: the support of the model.
+        /// Number of unique inliers, which is the support of the model.
         num_unique_inliers: usize,
-        /// Number of data left out: a coordinate that is infinite or beyond 1e9 pixels.
+        /// Number of data points ignored because a coordinate is infinite or beyond 1e9 pixels.
         num_left_out: usize,
-        /// Samples drawn.
+        /// Number of samples drawn.
         iterations: usize,
-        /// Number of samples required by the final inlier ratio.
+        /// Number of samples required at the final inlier ratio.
         required_iterations: u64,
-        /// Threshold of inliers, pixels.
+        /// Inlier threshold, pixels.
         max_error_px: f64,
         /// Score of the model.
         score: f64,
-        /// Expected number of such models in data without structure, as log10; None if unknown.
+        /// Expected number of models with this support by chance, as log10; None if unknown.
         log10_false_alarms: Option<f64>,
-        /// Number of times a model was improved from its inliers.
+        /// Number of times a model was refined from its inliers.
         refinements: usize,
-        /// Why the search ended: "confident", "exhausted" or "interrupted".
+        /// Reason the search ended: "confident", "exhausted" or "interrupted".
         stop: String,
     }
 }
 
 #[pymethods]
 impl RansacReport {
-    /// ``RansacReport[RelativePose]`` in annotations.
+    /// Supports ``RansacReport[RelativePose]`` in annotations.
     #[classmethod]
     fn __class_getitem__<'py>(
         cls: &Bound<'py, PyType>,
@@ -49,7 +49,7 @@ impl RansacReport {
         alias(cls, model)
     }
 
-    /// Whether unrelated data might show as much support: the model is then not significant.
+    /// Whether unrelated data might have this much support: the model is then not significant.
     fn could_be_chance(&self) -> bool {
         let report = robust::RansacReport {
             model: (),
@@ -69,7 +69,7 @@ impl RansacReport {
     }
 }
 
-/// Class with the type of its model.
+/// Generic alias of a class with its model type.
 pub(super) fn alias<'py>(
     class: &Bound<'py, PyType>,
     model: &Bound<'py, PyAny>,
@@ -78,7 +78,7 @@ pub(super) fn alias<'py>(
     types.call_method1("GenericAlias", (class, model))
 }
 
-/// Name of the reason.
+/// Returns the name of the reason.
 pub(crate) fn stop_reason(stop: StopReason) -> String {
     let name = match stop {
         StopReason::Confident => "confident",
@@ -88,9 +88,9 @@ pub(crate) fn stop_reason(stop: StopReason) -> String {
     name.to_owned()
 }
 
-/// Runs a robust estimation without the GIL, and reports in Python's terms.
+/// Runs a robust estimation without the GIL and converts its report to Python objects.
 ///
-/// * `model`: the Python object of a model
+/// * `model`: converts a model to a Python object
 ///
 /// # Errors
 /// As [`progress::run`].
@@ -104,7 +104,7 @@ pub(crate) fn estimate<'py, M: Send>(
 }
 
 impl RansacReport {
-    /// Report in Python's terms.
+    /// Converts the report to Python objects.
     pub(super) fn give<'py, M>(
         py: Python<'py>,
         report: robust::RansacReport<M>,

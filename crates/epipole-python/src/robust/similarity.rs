@@ -12,11 +12,11 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 record! {
-    /// Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
+    /// Rotation, scale and shift in the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
     "epipole.robust" PlaneSimilarity {
-        /// Scale times the cosine of the turn.
+        /// Scale times the cosine of the rotation angle.
         a: f64,
-        /// Scale times the sine of the turn.
+        /// Scale times the sine of the rotation angle.
         b: f64,
         /// Shift along u, pixels.
         tu: f64,
@@ -49,7 +49,7 @@ impl From<robust::PlaneSimilarity> for PlaneSimilarity {
 
 #[pymethods]
 impl PlaneSimilarity {
-    /// Images of points.
+    /// Maps points.
     ///
     /// Parameters
     /// ----------
@@ -64,23 +64,23 @@ impl PlaneSimilarity {
         Batch::<2>::read("p", p)?.vectors(p.py(), apply)
     }
 
-    /// Scale.
+    /// Returns the scale.
     fn scale(&self) -> f64 {
         self.core().scale()
     }
 
-    /// Angle of the turn from u towards v, radians.
+    /// Returns the rotation angle from u towards v, radians.
     fn angle_rad(&self) -> f64 {
         self.core().angle_rad()
     }
 
-    /// Homogeneous matrix, shape (3, 3).
+    /// Returns the homogeneous matrix, shape (3, 3).
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.core().matrix())
     }
 }
 
-/// Similarity of matches by least squares, without outliers.
+/// Fits a similarity to matches by least squares, without outliers.
 ///
 /// Parameters
 /// ----------
@@ -115,7 +115,7 @@ pub(super) fn fit_similarity(
         .into())
 }
 
-/// Similarity of matches with outliers, by RANSAC.
+/// Estimates a similarity from matches with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------

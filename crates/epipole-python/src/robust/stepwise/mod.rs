@@ -21,21 +21,21 @@ use pyo3::types::PyDict;
 use run::{Work, start};
 use std::sync::Arc;
 
-/// RANSAC, one sample at a time: to show it, or to end it by a rule of your own.
+/// RANSAC, one sample at a time: to visualize it, or to stop it by a custom rule.
 ///
-/// The constructor takes a model of your own; `line`, `similarity`, `fundamental` and
-/// `homography` start runs for models of the library.
+/// The constructor takes a custom model; `line`, `similarity`, `fundamental` and `homography` start
+/// runs for models of the library.
 ///
 /// Parameters
 /// ----------
 /// num_data : int
-///     Number of data.
+///     Number of data points.
 /// sample_size : int
-///     Number of data in a minimal sample.
+///     Number of data points in a minimal sample.
 /// fit : callable
 ///     ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
 /// errors : callable
-///     ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+///     ``errors(model)`` returns the errors of all data points, shape (num_data,), in the unit of
 ///     ``max_error_px``.
 /// refine : callable, optional
 ///     ``refine(model, indices)`` returns a better model from the inliers, or None.
@@ -51,7 +51,7 @@ use std::sync::Arc;
 ///
 /// Notes
 /// -----
-/// An exception in a callable is raised by the step; the next step continues.
+/// A step raises the exceptions of its callables; the next step continues the run.
 ///
 /// Examples
 /// --------
@@ -96,7 +96,7 @@ impl Ransac {
         Ok(Self(start(Ok(model), options, give, read, raised)?))
     }
 
-    /// Start for a line through points; see `estimate_line`.
+    /// Starts a run for a line through points; see `estimate_line`.
     ///
     /// Parameters
     /// ----------
@@ -137,7 +137,7 @@ impl Ransac {
         )?))
     }
 
-    /// Start for a similarity of the plane; see `estimate_similarity`.
+    /// Starts a run for a similarity of the plane; see `estimate_similarity`.
     ///
     /// Parameters
     /// ----------
@@ -184,7 +184,7 @@ impl Ransac {
         )?))
     }
 
-    /// Start for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
+    /// Starts a run for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
     ///
     /// Parameters
     /// ----------
@@ -224,7 +224,7 @@ impl Ransac {
         )?))
     }
 
-    /// Start for a homography; see `epipole.homography.estimate_homography`.
+    /// Starts a run for a homography; see `epipole.homography.estimate_homography`.
     ///
     /// Parameters
     /// ----------
@@ -264,12 +264,12 @@ impl Ransac {
         )?))
     }
 
-    /// Improves a model that is known, such as that of the frame before, and starts from it.
+    /// Improves a known model, such as that of the previous frame, and starts from it.
     ///
     /// Parameters
     /// ----------
     /// model : object
-    ///     Of the kind that the run estimates.
+    ///     Model of the kind that the run estimates.
     ///
     /// Raises
     /// ------
@@ -291,12 +291,12 @@ impl Ransac {
         with(&self.0, |run| run.step(py))
     }
 
-    /// Iterator over the trials that remain.
+    /// Returns an iterator over the remaining trials.
     fn __iter__(slf: Bound<'_, Self>) -> Bound<'_, Self> {
         slf
     }
 
-    /// Next trial.
+    /// Returns the next trial.
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Trial>> {
         self.step(py)
     }
@@ -323,24 +323,24 @@ impl Ransac {
         with(&self.0, |run| Ok(run.iterations()))
     }
 
-    /// Number of samples required by the best model so far; None before there is one.
+    /// Number of samples required by the best model so far; None before the first model.
     #[getter]
     fn required_iterations(&self) -> PyResult<Option<u64>> {
         with(&self.0, |run| Ok(run.required_iterations()))
     }
 
-    /// Number of samples after which the run ends if no better model is found.
+    /// Number of samples after which the run ends unless a better model is found.
     #[getter]
     fn expected_iterations(&self) -> PyResult<usize> {
         with(&self.0, |run| Ok(run.expected_iterations()))
     }
 
-    /// Improves the best model one last time. Ends the run.
+    /// Improves the best model once more and ends the run.
     ///
     /// Returns
     /// -------
     /// RansacReport of Any
-    ///     Its ``stop`` is "interrupted" if more samples were required.
+    ///     ``stop`` is "interrupted" if more samples were required.
     ///
     /// Raises
     /// ------

@@ -1,4 +1,4 @@
-//! Run for a model of any kind, in Python's terms.
+//! Run for a model of any kind, with Python objects.
 
 use crate::errors::OrRaise;
 use crate::record::record;
@@ -18,17 +18,17 @@ record! {
         iteration: usize,
         /// Indices of the data drawn, int64 array of shape (sample_size,).
         sample: Py<PyArray1<i64>>,
-        /// Number of models of the sample.
+        /// Number of models from the sample.
         num_models: usize,
-        /// Best of them, or None.
+        /// Best of these models, or None.
         model: Option<Py<PyAny>>,
-        /// Its score. An upper bound if it could not win, unless ``score_every_trial`` is set.
+        /// Score of `model`; an upper bound if it cannot win and ``score_every_trial`` is not set.
         score: f64,
-        /// Number of its inliers. A lower bound in the same case.
+        /// Number of inliers of `model`; a lower bound in the same case.
         num_inliers: usize,
-        /// Number of samples required by the best model so far; None before there is one.
+        /// Number of samples required by the best model so far; None before the first model.
         required_iterations: Option<u64>,
-        /// Whether the best model so far came out of this step.
+        /// Whether this step found the best model so far.
         is_best: bool,
         /// Best model after local optimization, or None if it was not improved.
         refined: Option<Py<PyAny>>,
@@ -52,9 +52,9 @@ pub(super) trait Run: Send {
 
 struct Of<E: Estimator> {
     run: robust::Ransac<E>,
-    /// Model as a Python object.
+    /// Converts a model to a Python object.
     give: fn(Python<'_>, &E::Model) -> PyResult<Py<PyAny>>,
-    /// Model from a Python object.
+    /// Reads a model from a Python object.
     read: fn(&E, &Bound<'_, PyAny>) -> PyResult<E::Model>,
     raised: Raised,
 }
@@ -134,11 +134,11 @@ where
 
 /// Starts a run.
 ///
-/// * `give`: model as a Python object
-/// * `read`: model from a Python object
+/// * `give`: converts a model to a Python object
+/// * `read`: reads a model from a Python object
 ///
 /// # Errors
-/// Exceptions of the estimator's error, and of options.
+/// Exceptions of the estimator and of the options.
 pub(super) fn start<E>(
     estimator: epipole::Result<E>,
     options: Option<&Bound<'_, PyDict>>,
