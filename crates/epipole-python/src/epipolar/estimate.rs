@@ -10,7 +10,7 @@ use epipole::nalgebra::Point2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Fundamental matrix of matches with outliers, by RANSAC.
+/// Estimates a fundamental matrix from matches with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -55,7 +55,7 @@ pub(super) fn estimate_fundamental(
     )
 }
 
-/// Essential matrix of matches with outliers, by RANSAC.
+/// Estimates an essential matrix from matches with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -104,7 +104,7 @@ pub(super) fn estimate_essential(
     )
 }
 
-/// Relative pose of two calibrated cameras from matches with outliers, by RANSAC.
+/// Estimates the relative pose of two calibrated cameras from matches with outliers, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -153,7 +153,7 @@ pub(super) fn estimate_relative_pose(
     )
 }
 
-/// Relative pose of two calibrated cameras that know the direction of gravity, by RANSAC.
+/// Estimates the relative pose of two calibrated cameras with known gravity, by RANSAC.
 ///
 /// Parameters
 /// ----------
@@ -217,7 +217,7 @@ pub(super) fn estimate_relative_pose_with_gravity(
     )
 }
 
-/// Relative pose and common focal length of two cameras, by RANSAC.
+/// Estimates the relative pose and common focal length of two cameras, by RANSAC.
 ///
 /// Parameters
 /// ----------

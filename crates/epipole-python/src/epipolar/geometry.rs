@@ -9,7 +9,7 @@ use epipole::nalgebra::{Matrix3, Point2, SVector};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Sampson distances of matches from a fundamental matrix.
+/// Computes the Sampson distances of matches from a fundamental matrix.
 ///
 /// Parameters
 /// ----------
@@ -38,7 +38,7 @@ pub(super) fn sampson_px<'py>(
     })
 }
 
-/// Tangent Sampson errors of matches between cameras of any lens.
+/// Computes the tangent Sampson errors of matches between cameras with any lens.
 ///
 /// Parameters
 /// ----------
@@ -51,7 +51,7 @@ pub(super) fn sampson_px<'py>(
 /// -------
 /// float or ndarray, shape (N,)
 ///     Pixels of both images; inf where the rays cannot meet in front of both cameras, NaN where a
-///     pixel has no ray. Between pinhole cameras nearly `sampson_px`.
+///     pixel has no ray. Nearly equal to `sampson_px` for pinhole cameras.
 #[pyfunction]
 pub(super) fn tangent_sampson_px<'py>(
     cam2_from_cam1: &RigidTransform,
@@ -72,7 +72,7 @@ pub(super) fn tangent_sampson_px<'py>(
     })
 }
 
-/// Symmetric epipolar distances of matches from a fundamental matrix.
+/// Computes the symmetric epipolar distances of matches from a fundamental matrix.
 ///
 /// Parameters
 /// ----------
@@ -95,7 +95,7 @@ pub(super) fn symmetric_epipolar_px<'py>(
     })
 }
 
-/// Rows of the linear system of the eight-point method: ``row @ F.ravel() == x2 @ F @ x1``.
+/// Returns the rows of the eight-point system: ``row @ F.ravel() == x2 @ F @ x1``.
 ///
 /// Parameters
 /// ----------
@@ -121,7 +121,7 @@ pub(super) fn epipolar_row<'py>(
     Pairs::<2, 2>::read(("x1", x1), ("x2", x2))?.vectors(x1.py(), row)
 }
 
-/// Epipolar lines in image 1 of pixels of image 2.
+/// Computes the epipolar lines in image 1 of pixels in image 2.
 ///
 /// Parameters
 /// ----------
@@ -148,7 +148,7 @@ pub(super) fn epipolar_line1<'py>(
     Batch::<2>::read("pixel2", pixel2)?.vectors(pixel2.py(), line)
 }
 
-/// Epipolar lines in image 2 of pixels of image 1.
+/// Computes the epipolar lines in image 2 of pixels in image 1.
 ///
 /// Parameters
 /// ----------
@@ -175,7 +175,7 @@ pub(super) fn epipolar_line2<'py>(
     Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), line)
 }
 
-/// Epipoles of image 1 and image 2.
+/// Computes the epipoles of image 1 and image 2.
 ///
 /// Parameters
 /// ----------
@@ -204,7 +204,7 @@ pub(super) fn epipoles<'py>(
     Ok((homogeneous(e1), homogeneous(e2)))
 }
 
-/// Nearest matrix of rank 2, of unit norm.
+/// Returns the nearest matrix of rank 2, with unit norm.
 ///
 /// Parameters
 /// ----------
@@ -221,7 +221,7 @@ pub(super) fn enforce_rank2<'py>(
     from_matrix(matrix.py(), &epipolar::enforce_rank2(&m).or_raise()?)
 }
 
-/// Nearest essential matrix, of unit norm.
+/// Returns the nearest essential matrix, with unit norm.
 ///
 /// Parameters
 /// ----------
@@ -243,7 +243,7 @@ pub(super) fn project_to_essential<'py>(
     from_matrix(matrix.py(), &epipolar::project_to_essential(&m).or_raise()?)
 }
 
-/// The four motions of an essential matrix.
+/// Decomposes an essential matrix into its four motions.
 ///
 /// Parameters
 /// ----------
@@ -264,12 +264,12 @@ pub(super) fn decompose_essential(essential: &Bound<'_, PyAny>) -> PyResult<Vec<
     Ok(motions.into_iter().map(RigidTransform::from).collect())
 }
 
-/// Motion that puts most points in front of both cameras.
+/// Selects the motion that puts most points in front of both cameras.
 ///
 /// Parameters
 /// ----------
 /// motions : sequence of RigidTransform
-///     Candidates, such as those of `decompose_essential`.
+///     Candidates, such as those from `decompose_essential`.
 /// pixels1, pixels2 : array_like, shape (N, 2)
 ///     Matches without outliers.
 /// k1, k2 : Intrinsics
@@ -300,7 +300,7 @@ pub(super) fn select_pose(
     })
 }
 
-/// Essential matrix of a motion, of unit norm.
+/// Computes the essential matrix of a motion, with unit norm.
 ///
 /// Parameters
 /// ----------
@@ -325,7 +325,7 @@ pub(super) fn essential_from_motion<'py>(
     )
 }
 
-/// Fundamental matrix of two cameras, of unit norm, for undistorted pixels.
+/// Computes the fundamental matrix of two cameras, with unit norm, for undistorted pixels.
 ///
 /// Parameters
 /// ----------
@@ -351,7 +351,7 @@ pub(super) fn fundamental_from_cameras<'py>(
     )
 }
 
-/// Fundamental matrix of an essential matrix, of unit norm.
+/// Computes the fundamental matrix of an essential matrix, with unit norm.
 ///
 /// Parameters
 /// ----------
@@ -377,7 +377,7 @@ pub(super) fn fundamental_from_essential<'py>(
     from_matrix(essential.py(), &f)
 }
 
-/// Essential matrix nearest to that of a fundamental matrix, of unit norm.
+/// Computes the essential matrix nearest to ``K2.T @ F @ K1``, with unit norm.
 ///
 /// Parameters
 /// ----------
@@ -403,7 +403,7 @@ pub(super) fn essential_from_fundamental<'py>(
     from_matrix(fundamental.py(), &e)
 }
 
-/// Focal lengths of two cameras from their fundamental matrix.
+/// Computes the focal lengths of two cameras from their fundamental matrix.
 ///
 /// Parameters
 /// ----------

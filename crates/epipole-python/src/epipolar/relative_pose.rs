@@ -9,10 +9,10 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Deviation of |t|² from 1 that passes as rounding.
+/// Maximum deviation of |t|² from 1 that counts as rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Motion of a camera with a translation of length 1.
+/// Camera motion with a translation of length 1.
 ///
 /// Parameters
 /// ----------
@@ -56,7 +56,7 @@ impl RelativePose {
         }))
     }
 
-    /// Relative pose of a motion, whose length is dropped.
+    /// Creates a relative pose from a motion, without the length of its translation.
     ///
     /// Parameters
     /// ----------
@@ -89,7 +89,7 @@ impl RelativePose {
         from_matrix(py, &self.0.essential())
     }
 
-    /// F of the pixels of two pinhole cameras, shape (3, 3).
+    /// Returns F for the pixels of two pinhole cameras, shape (3, 3).
     ///
     /// Parameters
     /// ----------
@@ -104,22 +104,22 @@ impl RelativePose {
         from_matrix(py, &self.0.fundamental(&k1.0, &k2.0).or_raise()?)
     }
 
-    /// The motion as a rigid transform.
+    /// Returns the motion as a rigid transform.
     fn cam2_from_cam1(&self) -> RigidTransform {
         self.0.cam2_from_cam1().into()
     }
 }
 
 record! {
-    /// Relative pose with the focal length of both cameras.
+    /// Relative pose and common focal length of two cameras.
     "epipole.epipolar" PoseWithFocal {
         /// Motion.
         pose: RelativePose,
-        /// F of the pixels, shape (3, 3).
+        /// F for pixels, shape (3, 3).
         fundamental: Py<PyArray2<f64>>,
         /// Focal length of both cameras, pixels.
         focal_px: f64,
-        /// Standard deviation of the focal length, pixels; None if it makes no difference.
+        /// Standard deviation of the focal length, pixels; None if the focal length has no effect.
         focal_std_px: Option<f64>,
     }
 }
@@ -150,7 +150,7 @@ impl PoseWithFocal {
 }
 
 record! {
-    /// Essential matrix with the focal length of both cameras.
+    /// Essential matrix and common focal length of two cameras.
     "epipole.epipolar" EssentialWithFocal {
         /// E, shape (3, 3).
         essential: Py<PyArray2<f64>>,

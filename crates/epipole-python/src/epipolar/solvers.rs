@@ -14,15 +14,15 @@ use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
 
 record! {
-    /// Fundamental matrix by the eight-point method, with its intermediate results.
+    /// Fundamental matrix by the eight-point method, with intermediate results.
     "epipole.epipolar" EightPoint {
         /// F of rank 2, shape (3, 3).
         fundamental: Py<PyArray2<f64>>,
-        /// Least-squares solution before its rank was lowered to 2, shape (3, 3).
+        /// Least-squares solution before its rank is reduced to 2, shape (3, 3).
         full_rank: Py<PyArray2<f64>>,
         /// Singular values of the linear system, largest first, shape (9,).
         singular_values: Py<PyArray1<f64>>,
-        /// Largest singular value by the eighth: amplification of errors of the data.
+        /// Ratio of the largest to the eighth singular value: amplification of data errors.
         condition_number: f64,
     }
 }
@@ -36,7 +36,7 @@ fn eight_point(py: Python<'_>, found: &epipolar::EightPoint) -> PyResult<EightPo
     })
 }
 
-/// Fundamental matrices of seven matches.
+/// Computes the fundamental matrices of seven matches.
 ///
 /// Parameters
 /// ----------
@@ -56,7 +56,7 @@ pub(super) fn fundamental_7point<'py>(
     from_matrices(pixels1.py(), &epipolar::fundamental_7point(&first, &second))
 }
 
-/// Fundamental matrix of matches by the normalized eight-point method, without outliers.
+/// Fits a fundamental matrix by the normalized eight-point method, without outliers.
 ///
 /// Parameters
 /// ----------
@@ -85,7 +85,7 @@ pub(super) fn fundamental_8point<'py>(
     from_matrix(pixels1.py(), &f)
 }
 
-/// `fundamental_8point` with its intermediate results.
+/// Returns the result of `fundamental_8point` with intermediate results.
 ///
 /// Parameters
 /// ----------
@@ -114,7 +114,7 @@ pub(super) fn fundamental_8point_explained(
     eight_point(pixels1.py(), &found)
 }
 
-/// Eight-point method without normalization of the pixels, for comparison.
+/// Applies the eight-point method without normalizing the pixels, for comparison.
 ///
 /// Parameters
 /// ----------
@@ -143,7 +143,7 @@ pub(super) fn fundamental_8point_unnormalized(
     eight_point(pixels1.py(), &found)
 }
 
-/// Essential matrices of five pairs of rays.
+/// Computes the essential matrices of five pairs of rays.
 ///
 /// Parameters
 /// ----------
@@ -163,7 +163,7 @@ pub(super) fn essential_5point<'py>(
     from_matrices(rays1.py(), &epipolar::essential_5point(&first, &second))
 }
 
-/// Essential matrix of rays by linear least squares, without outliers.
+/// Fits an essential matrix to rays by linear least squares, without outliers.
 ///
 /// Parameters
 /// ----------
@@ -193,7 +193,7 @@ pub(super) fn essential_8point<'py>(
     from_matrix(rays1.py(), &e)
 }
 
-/// Essential matrices and common focal lengths of six matches.
+/// Computes the essential matrices and common focal lengths of six matches.
 ///
 /// Parameters
 /// ----------
@@ -227,7 +227,7 @@ pub(super) fn essential_6point(
     found.into_iter().map(to_python).collect()
 }
 
-/// Motions of three pairs of rays, with known directions of gravity.
+/// Computes the motions from three pairs of rays and known directions of gravity.
 ///
 /// Parameters
 /// ----------
@@ -255,7 +255,7 @@ pub(super) fn relative_pose_3point(
     Ok(motions.into_iter().map(RigidTransform::from).collect())
 }
 
-/// Fundamental matrix refined by the Sampson errors of matches.
+/// Refines a fundamental matrix by minimizing the Sampson errors of matches.
 ///
 /// Parameters
 /// ----------
@@ -292,7 +292,7 @@ pub(super) fn refine_fundamental<'py>(
     from_matrix(pixels1.py(), &refined)
 }
 
-/// Relative pose refined by the Sampson errors of matches.
+/// Refines a relative pose by minimizing the Sampson errors of matches.
 ///
 /// Parameters
 /// ----------
