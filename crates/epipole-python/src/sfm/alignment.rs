@@ -16,9 +16,9 @@ record! {
         rmse: f64,
         /// Mean.
         mean: f64,
-        /// Median, the lower one of an even number.
+        /// Median; the lower of the middle two for an even number.
         median: f64,
-        /// Largest.
+        /// Maximum.
         max: f64,
     }
 }
@@ -35,7 +35,7 @@ impl From<sfm::ErrorStatistics> for ErrorStatistics {
 }
 
 record! {
-    /// Errors of the motion between frames.
+    /// Errors of the motions between frames.
     "epipole.sfm" RelativePoseError {
         /// `ErrorStatistics` of the translation, in the unit of the trajectories.
         translation: Py<ErrorStatistics>,
@@ -50,7 +50,7 @@ fn alignment_kind(kind: Option<&Bound<'_, PyAny>>) -> PyResult<AlignmentKind> {
     })
 }
 
-/// Transform ``T`` with the least ``sum(|T @ from - to|**2)``, in closed form (Umeyama).
+/// Aligns points: finds the ``T`` that minimizes ``sum(|T @ from - to|**2)`` (Umeyama).
 ///
 /// Parameters
 /// ----------
@@ -87,7 +87,7 @@ pub(super) fn align_points(
     Ok(Similarity3(aligned.or_raise()?))
 }
 
-/// Absolute trajectory error: distances between camera centers after the best alignment.
+/// Computes the absolute trajectory error: distances of camera centers after alignment.
 ///
 /// Parameters
 /// ----------
@@ -122,14 +122,14 @@ pub(super) fn absolute_trajectory_error(
     Ok((errors.into(), Similarity3(aligned)))
 }
 
-/// Relative pose error: difference of the motions over some frames.
+/// Computes the relative pose error: differences of the motions over a number of frames.
 ///
 /// Parameters
 /// ----------
 /// estimated, truth : list of RigidTransform
 ///     ``world_from_cam`` of the same frames, in order.
 /// step : int, optional
-///     Number of frames between the two ends of a motion, >= 1.
+///     Number of frames from the start to the end of a motion, >= 1.
 ///
 /// Returns
 /// -------

@@ -19,7 +19,7 @@ use pyo3::types::PyDict;
 /// ----------
 /// cameras : array_like, shape (C, 9)
 ///     Rotation as axis times angle (radians), translation, focal length (pixels), k1, k2. The
-///     camera looks along -z; pixels have the origin in the middle of the image and v up.
+///     camera looks along -z; pixels have their origin at the image center, with v up.
 /// points : array_like, shape (P, 3)
 /// observations : array_like of int, shape (M, 2)
 ///     Index of the camera and of the point.
@@ -83,7 +83,7 @@ impl BalProblem {
         give_pixels(py, &self.0.observations)
     }
 
-    /// Half the sum of the losses, square pixels.
+    /// Computes half the sum of the losses, square pixels.
     ///
     /// Parameters
     /// ----------
@@ -115,7 +115,7 @@ impl BalProblem {
 /// Parameters
 /// ----------
 /// problem : BalProblem
-///     It is not changed.
+///     Not changed.
 /// loss : str or dict, optional
 ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 /// progress : callable, optional

@@ -13,16 +13,16 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
-/// Further camera rigidly mounted on each camera of a bundle, such as the right one of a rig.
+/// Additional camera rigidly mounted on each camera of a bundle, such as the right one of a rig.
 ///
 /// Parameters
 /// ----------
 /// sensor_from_camera : RigidTransform
-///     From the frame of the camera to that of the sensor; it is not refined.
+///     From the frame of the camera to that of the sensor; not refined.
 /// camera : Camera
 ///     Image size, intrinsics and lens of the sensor.
 /// lens : int
-///     Number of its lens, as in `Bundle.lens_of_camera`.
+///     Lens number, as in `Bundle.lens_of_camera`.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(super) struct Sensor(sfm::Sensor);
@@ -53,7 +53,7 @@ impl Sensor {
         self.0.camera.into()
     }
 
-    /// Number of its lens.
+    /// Lens number.
     #[getter]
     fn lens(&self) -> usize {
         self.0.lens
@@ -72,12 +72,12 @@ impl Sensor {
 /// pixels : array_like, shape (M, 2)
 ///     Pixel of each observation.
 /// lens_of_camera : array_like of int, optional
-///     Number of the lens of each camera; 0 if missing. Cameras of one lens have equal lenses and
-///     share what is refined of them.
+///     Lens number of each camera; 0 by default. Cameras with the same number have equal lenses and
+///     share their refined parameters.
 /// sensors : list of Sensor, optional
-///     Further cameras mounted on each camera.
+///     Additional cameras mounted on each camera.
 /// sensor_of_observation : array_like of int, optional
-///     0 if the camera itself made the observation, k if sensor k - 1 did; 0 if missing.
+///     For each observation, 0 if the camera itself made it, k if sensor k - 1 did; 0 by default.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct Bundle(pub(super) sfm::Bundle);
 
@@ -140,13 +140,13 @@ impl Bundle {
         give_pixels(py, &self.0.observations)
     }
 
-    /// Number of the lens of each camera, int64 array.
+    /// Lens number of each camera, int64 array.
     #[getter]
     fn lens_of_camera<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         give_indices(py, &self.0.lens_of_camera)
     }
 
-    /// Further cameras mounted on each camera, a list of `Sensor`.
+    /// Additional cameras mounted on each camera, a list of `Sensor`.
     #[getter]
     fn sensors(&self) -> Vec<Sensor> {
         self.0
@@ -162,7 +162,7 @@ impl Bundle {
         give_indices(py, &self.0.sensor_of_observation)
     }
 
-    /// Reprojection error of an observation, predicted minus observed pixel, shape (2,).
+    /// Returns the reprojection error of an observation, predicted minus observed, shape (2,).
     ///
     /// Parameters
     /// ----------
@@ -213,7 +213,7 @@ pub(super) fn observed(
         .collect())
 }
 
-/// Array of the pixels of observations, shape (M, 2).
+/// Returns the pixels of observations as an array, shape (M, 2).
 pub(super) fn give_pixels<'py>(
     py: Python<'py>,
     observations: &[BundleObservation],
@@ -247,19 +247,20 @@ pub(super) fn plain_options<'py>(
     Ok(Some(plain))
 }
 
-/// Refines cameras and points, and their lenses if asked, by the reprojection errors.
+/// Refines cameras, points and, optionally, lenses by minimizing the reprojection errors.
 ///
 /// Parameters
 /// ----------
 /// bundle : Bundle
-///     It is not changed.
+///     Not changed.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : BundleOptions
-///     ``loss``, of pixels; ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
-///     ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``; ``held_cameras`` and
-///     ``held_points``, lists of bool; ``position_priors``, a list of `PositionPrior` or None;
-///     ``position_loss``; ``lm``, a dict such as ``{"max_iterations": 50}``.
+///     ``loss``, its width in pixels; ``refine_focal``, ``refine_principal_point``,
+///     ``refine_distortion``, ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``;
+///     ``held_cameras`` and ``held_points``, lists of bool; ``position_priors``, a list of
+///     `PositionPrior` or None; ``position_loss``; ``lm``, a dict such as ``{"max_iterations":
+///     50}``.
 ///
 /// Returns
 /// -------

@@ -12,14 +12,14 @@ use epipole::sfm;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Camera position measured otherwise, such as by GPS.
+/// Prior of a camera position, such as from GPS.
 ///
 /// Parameters
 /// ----------
 /// center_in_world : array_like, shape (3,)
 ///     Center of the camera.
 /// sigma : array_like, shape (3,)
-///     Standard deviation along each axis of the world, in its unit, > 0.
+///     Standard deviation along each world axis, in world units, > 0.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
 #[derive(Clone)]
 pub(super) struct PositionPrior(pub(super) sfm::PositionPrior);
@@ -54,14 +54,14 @@ impl PositionPrior {
 /// Parameters
 /// ----------
 /// name : str
-///     Name, such as that of its file.
+///     Name, such as the file name.
 /// keypoints : array_like, shape (N, 2)
 ///     Pixels.
 /// colors : array_like of uint8, shape (N, 3), optional
 ///     Red, green, blue.
 /// lens : int, optional
-///     Number of its lens. Images with the same number have equal lenses and share what is refined
-///     of them.
+///     Lens number. Images with the same number have equal lenses and share their refined
+///     parameters.
 /// position : PositionPrior, optional
 ///     Position of the camera, if known.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
@@ -117,7 +117,7 @@ impl SfmImage {
         give_colors(py, self.0.colors.iter().copied()).map(Some)
     }
 
-    /// Number of its lens.
+    /// Lens number.
     #[getter]
     fn lens(&self) -> usize {
         self.0.lens
@@ -209,7 +209,7 @@ pub(super) fn matches(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Matc
         .collect())
 }
 
-/// Python object of matches, `epipole.feature.Matches`.
+/// Creates `epipole.feature.Matches` in Python.
 pub(super) fn give_matches<'py>(py: Python<'py>, matches: &[Match]) -> PyResult<Bound<'py, PyAny>> {
     let indices = give_index_rows(py, matches.iter().map(|m| [m.index1, m.index2]))?;
     let distances = PyArray1::from_iter(py, matches.iter().map(|m| m.distance));
@@ -230,7 +230,7 @@ pub(super) fn give_matches<'py>(py: Python<'py>, matches: &[Match]) -> PyResult<
 /// cameras : list of Camera
 ///     Camera of each image, or one for all.
 /// pairs : list of PairMatches
-///     Matches between images, wrong ones among them.
+///     Matches between images, including outliers.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct SfmInput(pub(super) sfm::SfmInput);
 

@@ -17,14 +17,14 @@ use std::sync::Mutex;
 /// Parameters
 /// ----------
 /// kind : {"started", "registered", "adjusted"}
-/// images : list of int
+/// The two images that started a component, the registered one, or none.
 ///     Two images that started a component, the registered one, or none.
 /// num_registered : int, optional
-///     Number of registered images of the component.
+///     Number of registered images in the component.
 /// num_points : int, optional
-///     Number of points of the component.
+///     Number of points in the component.
 /// cost : float, optional
-///     Cost of the refinement, square pixels.
+///     Cost after the refinement, square pixels.
 ///
 /// Raises
 /// ------
@@ -82,7 +82,7 @@ impl SfmStep {
         }
     }
 
-    /// Two images that started a component, the registered one, or none.
+    /// The two images that started a component, the registered one, or none.
     #[getter]
     fn images(&self) -> Vec<usize> {
         match self.0 {
@@ -92,7 +92,7 @@ impl SfmStep {
         }
     }
 
-    /// Number of registered images of the component.
+    /// Number of registered images in the component.
     #[getter]
     fn num_registered(&self) -> Option<usize> {
         match self.0 {
@@ -101,7 +101,7 @@ impl SfmStep {
         }
     }
 
-    /// Number of points of the component.
+    /// Number of points in the component.
     #[getter]
     fn num_points(&self) -> Option<usize> {
         match self.0 {
@@ -162,7 +162,7 @@ impl SfmResult {
             .collect()
     }
 
-    /// Images that are in none.
+    /// Images in no component.
     #[getter]
     fn unregistered(&self) -> Vec<usize> {
         self.0.unregistered.clone()
@@ -181,7 +181,7 @@ impl SfmResult {
     }
 }
 
-/// Cameras and points from matches between images.
+/// Reconstructs cameras and points from matches between images.
 ///
 /// Parameters
 /// ----------
@@ -197,7 +197,7 @@ impl SfmResult {
 /// Returns
 /// -------
 /// SfmResult
-///     Without components if no pair has enough matches.
+///     No components if no pair has enough matches.
 ///
 /// Raises
 /// ------
@@ -223,13 +223,13 @@ pub(super) fn reconstruct(
     Ok(SfmResult(result))
 }
 
-/// `reconstruct`, step by step.
+/// Step-by-step `reconstruct`.
 ///
 /// Parameters
 /// ----------
 /// input : SfmInput
 /// progress : callable, optional
-///     Called with the stage and the completed share while pairs are tested.
+///     Called with the stage and the completed fraction while pairs are verified.
 /// **options : SfmOptions
 ///     See `reconstruct`.
 ///
@@ -264,7 +264,7 @@ impl IncrementalReconstruction {
 
     /// Takes the next step and returns it; None after the last.
     ///
-    /// After an interruption the next call continues from there.
+    /// After an interruption, the next call resumes.
     ///
     /// Parameters
     /// ----------
@@ -282,7 +282,7 @@ impl IncrementalReconstruction {
         })
     }
 
-    /// Component that grows now, a `Reconstruction`; None between two components.
+    /// Returns the component that currently grows, a `Reconstruction`; None between components.
     ///
     /// Raises
     /// ------
@@ -292,7 +292,7 @@ impl IncrementalReconstruction {
         with(&self.0, |work| Ok(work.current().map(Reconstruction)))
     }
 
-    /// All components, including the current one. Ends the work.
+    /// Ends the job and returns all components, including the current one.
     ///
     /// Raises
     /// ------
@@ -304,7 +304,7 @@ impl IncrementalReconstruction {
 }
 
 record! {
-    /// Why an image is in no reconstruction.
+    /// Reason an image is in no reconstruction.
     "epipole.sfm" WhyUnregistered {
         /// "few_features", "few_matches", "no_motion", "no_baseline", "no_start", "few_points",
         /// "no_pose" or "not_tried".
@@ -314,7 +314,7 @@ record! {
     }
 }
 
-/// Refuses a result with images or keypoints that the input does not have.
+/// Rejects a result with images or keypoints missing in the input.
 fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()> {
     let images = &input.images;
     let is_missing = |element: &sfm::TrackElement| {
@@ -334,7 +334,7 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
     Ok(())
 }
 
-/// Reasons why images are in no reconstruction.
+/// Returns the reasons why images are in no reconstruction.
 ///
 /// Parameters
 /// ----------
@@ -344,7 +344,7 @@ fn require_images(input: &sfm::SfmInput, result: &sfm::SfmResult) -> PyResult<()
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     Those given to `reconstruct`.
+///     Options given to `reconstruct`.
 ///
 /// Returns
 /// -------

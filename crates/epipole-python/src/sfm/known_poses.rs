@@ -1,4 +1,4 @@
-//! Points from matches between images whose poses are known.
+//! Points from matches between images with known poses.
 
 use super::images::SfmInput;
 use super::reconstruction::Reconstruction;
@@ -8,23 +8,23 @@ use epipole::sfm;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Points from matches between images whose poses are known; cameras stay as they are.
+/// Triangulates points from matches between images with known poses; cameras do not change.
 ///
 /// Parameters
 /// ----------
 /// input : SfmInput
 /// cam_from_world : list of RigidTransform or None
-///     Pose of each image; one without takes no part.
+///     Pose of each image; images without a pose are ignored.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     Those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
+///     Some of those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
 ///     ``min_track_length``.
 ///
 /// Returns
 /// -------
 /// Reconstruction
-///     Points in the world of the poses; few or none if the poses are not those of the images.
+///     Points in the world frame of the poses; few or none if the poses do not match the images.
 ///
 /// Raises
 /// ------

@@ -1,4 +1,4 @@
-//! Closed loops, and averages of rotations.
+//! Loop closing, and rotation averaging.
 
 use super::pose_graph::PoseGraphReport;
 use super::similarity::Similarity3;
@@ -14,14 +14,14 @@ use numpy::prelude::*;
 use numpy::{PyArray1, PyArray3};
 use pyo3::prelude::*;
 
-/// Frame that shows part of an earlier one.
+/// Motion between two frames that show the same scene.
 ///
 /// Parameters
 /// ----------
 /// from_index, to_index : int
-///     Indices of the earlier and of the later frame.
+///     Indices of the earlier and the later frame.
 /// from_from_to : Similarity3
-///     Later camera in the frame of the earlier one, with the ratio of their scales.
+///     Pose of the later camera in the frame of the earlier one, with the ratio of their scales.
 /// weight : float, optional
 ///     Weight relative to one step of odometry.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
@@ -57,7 +57,7 @@ impl LoopClosure {
         self.0.to
     }
 
-    /// Later camera in the frame of the earlier one.
+    /// Pose of the later camera in the frame of the earlier one.
     #[getter]
     fn from_from_to(&self) -> Similarity3 {
         Similarity3(self.0.from_from_to)
@@ -71,29 +71,29 @@ impl LoopClosure {
 }
 
 record! {
-    /// Path after its loops were closed.
+    /// Path after loop closing.
     "epipole.sfm" ClosedPath {
         /// ``world_from_cam`` of each frame, a list of `RigidTransform`.
         world_from_cam: Vec<RigidTransform>,
-        /// Factor of lengths around each frame, shape (N,).
+        /// Scale factor of each frame, shape (N,).
         scale: Py<PyArray1<f64>>,
         /// `PoseGraphReport` of the optimization.
         report: Py<PoseGraphReport>,
     }
 }
 
-/// Spreads the error of closed loops over a path.
+/// Distributes the error of closed loops over a path.
 ///
 /// Parameters
 /// ----------
 /// world_from_cam : list of RigidTransform
-///     Path, frame after frame. The first frame stays.
+///     Path, frame by frame. The first frame is held fixed.
 /// loops : list of LoopClosure
 /// motion : {"similarity", "rigid"}, optional
 ///     With or without a scale of each frame.
 /// loss : str or dict, optional
-///     Of standard deviations of a step: ``"trivial"``, or ``{"huber": {"width": 1.0}}``,
-///     ``"cauchy"``, ``"truncated"`` likewise.
+///     Its width is in standard deviations of a step: ``"trivial"``, or ``{"huber": {"width":
+///     1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -136,13 +136,13 @@ pub(super) fn close_loops(
     })
 }
 
-/// Similarity between two reconstructions of the same points, some of which are wrong.
+/// Estimates the similarity between two reconstructions from point pairs with outliers.
 ///
 /// Parameters
 /// ----------
 /// from_points, to_points : array_like, shape (N, 3)
 /// max_distance : float
-///     Threshold of inliers, in the unit of `to_points`.
+///     Inlier threshold, in the unit of `to_points`.
 /// seed : int, optional
 ///
 /// Returns
@@ -176,7 +176,7 @@ pub(super) fn estimate_similarity_of_points<'py>(
     Ok((Similarity3(similarity), inliers.to_pyarray(py)))
 }
 
-/// Rotations of views that agree best with those measured between pairs of them.
+/// Averages rotations: finds those of the views that best fit the measurements between pairs.
 ///
 /// Parameters
 /// ----------
@@ -187,7 +187,7 @@ pub(super) fn estimate_similarity_of_points<'py>(
 /// to_from_from : array_like, shape (M, 3, 3)
 ///     Rotation from the frame of the first view to that of the second.
 /// loss : str or dict, optional
-///     Of radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``, ``"cauchy"``,
+///     Its width is in radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``; ``"cauchy"`` and
 ///     ``"truncated"`` likewise.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.

@@ -55,19 +55,19 @@ impl OdometryResult {
         poses.map(|&pose| Some(pose?.into())).collect()
     }
 
-    /// Frames that gave points.
+    /// Frames that provide points.
     #[getter]
     fn keyframes(&self) -> Vec<usize> {
         self.0.keyframes.clone()
     }
 
-    /// Frames that could not be placed.
+    /// Frames that could not be registered.
     #[getter]
     fn lost(&self) -> Vec<usize> {
         self.0.lost.clone()
     }
 
-    /// Cameras and points; of a stereo rig the left cameras, then the right ones.
+    /// Cameras and points; for a stereo rig, the left cameras followed by the right ones.
     #[getter]
     fn reconstruction(&self) -> Reconstruction {
         Reconstruction(self.0.reconstruction.clone())
@@ -97,17 +97,17 @@ impl Right {
     }
 }
 
-/// Path of a single camera, up to scale.
+/// Estimates the path of a single camera, up to scale.
 ///
 /// Parameters
 /// ----------
 /// input : SfmInput
-///     Frames in order of time, and matches between frames that are near in time.
+///     Frames in order of time, and matches between frames close in time.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : OdometryOptions
-///     ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes that
-///     are refined together; ``final_adjustment``.
+///     ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes refined
+///     together; ``final_adjustment``.
 ///
 /// Returns
 /// -------
@@ -138,7 +138,7 @@ pub(super) fn monocular_odometry(
     Ok(OdometryResult(result))
 }
 
-/// Path of a stereo rig, in the unit of its baseline.
+/// Estimates the path of a stereo rig, in the unit of its baseline.
 ///
 /// Parameters
 /// ----------
@@ -200,13 +200,13 @@ pub(super) fn stereo_odometry(
     Ok(OdometryResult(result))
 }
 
-/// `monocular_odometry` or `stereo_odometry`, step by step.
+/// Step-by-step `monocular_odometry` or `stereo_odometry`.
 #[pyclass(frozen, module = "epipole.sfm")]
 pub(super) struct Odometry(Mutex<Option<sfm::Odometry>>);
 
 #[pymethods]
 impl Odometry {
-    /// Start with a single camera.
+    /// Starts with a single camera; see `monocular_odometry`.
     ///
     /// Parameters
     /// ----------
@@ -241,7 +241,7 @@ impl Odometry {
         Ok(Self(Mutex::new(Some(started))))
     }
 
-    /// Start with a stereo rig; see `stereo_odometry`.
+    /// Starts with a stereo rig; see `stereo_odometry`.
     ///
     /// Parameters
     /// ----------
@@ -298,7 +298,7 @@ impl Odometry {
 
     /// Takes the next step and returns an `SfmStep`; None after the last.
     ///
-    /// After an interruption the next call continues from there.
+    /// After an interruption, the next call resumes.
     ///
     /// Parameters
     /// ----------
@@ -316,7 +316,7 @@ impl Odometry {
         })
     }
 
-    /// Path so far, an `OdometryResult`. Ends the work.
+    /// Ends the job and returns the path so far, an `OdometryResult`.
     ///
     /// Raises
     /// ------

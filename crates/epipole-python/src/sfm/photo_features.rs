@@ -6,14 +6,14 @@ use crate::feature::{self, Keypoints, give_descriptors};
 use epipole::sfm;
 use pyo3::prelude::*;
 
-/// Features of a photo; its pixels are no longer needed.
+/// Features of a photo, without its pixels.
 ///
 /// Parameters
 /// ----------
 /// image : SfmImage
 ///     Size, keypoints and their colors.
 /// descriptors : array_like, shape (N, D) or uint8 of shape (N, 32)
-///     Numbers, or 256 bits.
+///     Floating-point numbers, or 256 bits.
 /// keypoints : epipole.feature.Keypoints
 ///     Keypoints with scales and directions.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
@@ -53,7 +53,7 @@ impl PhotoFeatures {
         SfmImage(self.0.image.clone())
     }
 
-    /// Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits.
+    /// Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for binary ones.
     #[getter]
     fn descriptors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         give_descriptors(py, &self.0.descriptors)

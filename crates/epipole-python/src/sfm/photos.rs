@@ -21,7 +21,7 @@ use pyo3::types::PyDict;
 /// image : array_like of uint8, shape (H, W, 3)
 ///     Red, green, blue.
 /// lens : int, optional
-///     Number of its lens, as in `SfmImage`.
+///     Lens number, as in `SfmImage`.
 /// position : PositionPrior, optional
 ///     Position of the camera, if known.
 #[pyclass(frozen, from_py_object, module = "epipole.sfm")]
@@ -60,7 +60,7 @@ impl Photo {
         from_rgb(py, self.0.image.clone())
     }
 
-    /// Number of its lens.
+    /// Lens number.
     #[getter]
     fn lens(&self) -> usize {
         self.0.lens
@@ -73,7 +73,7 @@ impl Photo {
     }
 }
 
-/// Keypoints and descriptors of a photo.
+/// Detects keypoints and descriptors of a photo.
 ///
 /// Parameters
 /// ----------
@@ -107,7 +107,7 @@ pub(super) fn photo_features(
     Ok(PhotoFeatures(features))
 }
 
-/// Matches between all pairs of photos, or between those that are near in order.
+/// Matches all pairs of photos, or those close in order.
 ///
 /// Parameters
 /// ----------
@@ -116,7 +116,7 @@ pub(super) fn photo_features(
 ///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
 ///     ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
-///     photos to match each with, 0 for all; ``best_first``.
+///     photos to match with each photo, 0 for all; ``best_first``.
 ///
 /// Returns
 /// -------
@@ -144,7 +144,7 @@ pub(super) fn match_features(
     Ok(pairs.into_iter().map(PairMatches).collect())
 }
 
-/// Matches between the two images of a rectified stereo pair.
+/// Matches the two images of a rectified stereo pair.
 ///
 /// Parameters
 /// ----------
@@ -181,7 +181,7 @@ pub(super) fn match_rectified<'py>(
     give_matches(py, &matches)
 }
 
-/// Keypoints of all photos and matches between all pairs of them.
+/// Detects keypoints in all photos and matches them between all pairs.
 ///
 /// Parameters
 /// ----------
@@ -189,7 +189,7 @@ pub(super) fn match_rectified<'py>(
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
-///     Those of `photo_features` and `match_features`.
+///     See `photo_features` and `match_features`.
 ///
 /// Returns
 /// -------
@@ -219,7 +219,7 @@ pub(super) fn match_photos(
     Ok((images, pairs.into_iter().map(PairMatches).collect()))
 }
 
-/// Cameras and points from photos: features, matches, and `reconstruct`.
+/// Reconstructs cameras and points from photos: features, matches, and `reconstruct`.
 ///
 /// Parameters
 /// ----------

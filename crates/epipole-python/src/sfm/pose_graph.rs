@@ -15,10 +15,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Poses, joined by measured relative poses.
+/// Poses joined by measured relative poses.
 ///
-/// A pose is a row of an array: (x, y, angle) in the plane; (x, y, z, qw, qx, qy, qz) in space; the
-/// same with a scale behind it for similarities.
+/// A pose is a row of an array: (x, y, angle) in the plane, (x, y, z, qw, qx, qy, qz) in space, and
+/// the same followed by a scale for similarities.
 ///
 /// Parameters
 /// ----------
@@ -30,21 +30,21 @@ use pyo3::types::PyDict;
 /// measurements : array_like, shape (E, 3), (E, 7) or (E, 8)
 ///     Pose of the end in the frame of the start.
 /// information : array_like, shape (E, D, D), optional
-///     Inverse covariances of translation, rotation, log scale: D is 3, 6 or 7. Identities if not
-///     given.
+///     Inverse covariances of translation, rotation, log scale: D is 3, 6 or 7. Identities by
+///     default.
 /// fixed : array_like of int, optional
-///     Vertices that stay. In a connected part without one, its first vertex stays.
+///     Vertices held fixed. In a connected part without one, the first vertex is held.
 /// ids : array_like of int, shape (V,), optional
 ///     Number of each vertex in a file.
 /// landmarks : array_like of int, optional
-///     Vertices that are points, which have no rotation: edges to them have an information of 0
-///     for it.
+///     Vertices that are points without rotation: edges to them have an information of 0 for the
+///     rotation.
 /// prior_vertices : array_like of int, shape (P,), optional
-///     Vertices whose poses are measured, such as by a GPS receiver.
+///     Vertices whose poses are measured, for example by a GPS receiver.
 /// priors : array_like, shape (P, 3), (P, 7) or (P, 8), optional
-///     ``world_from_vertex`` as measured.
+///     Measured ``world_from_vertex``.
 /// prior_information : array_like, shape (P, D, D), optional
-///     Inverse covariances of these. Identities if not given.
+///     Inverse covariances of the priors. Identities by default.
 ///
 /// Raises
 /// ------
@@ -313,7 +313,7 @@ impl PoseGraph {
         })
     }
 
-    /// Measured ``world_from_vertex`` of these, shape (P, 3), (P, 7) or (P, 8).
+    /// Measured ``world_from_vertex`` of these vertices, shape (P, 3), (P, 7) or (P, 8).
     #[getter]
     fn priors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         each!(&self.0, |graph, columns| {
@@ -330,13 +330,13 @@ impl PoseGraph {
         })
     }
 
-    /// Vertices that stay, int64 array.
+    /// Vertices held fixed, int64 array.
     #[getter]
     fn fixed<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         each!(&self.0, |graph, _columns| give_indices(py, &graph.fixed))
     }
 
-    /// Vertices that are points, whose rotation is none, int64 array.
+    /// Vertices that are points without rotation, int64 array.
     #[getter]
     fn landmarks<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         each!(&self.0, |graph, _columns| give_indices(
@@ -353,17 +353,17 @@ impl PoseGraph {
         })
     }
 
-    /// Sum of the squared errors, weighted by their information.
+    /// Returns the sum of the squared errors, weighted by their information.
     fn chi2(&self) -> f64 {
         self.0.chi2()
     }
 
-    /// Number of vertices and of edges.
+    /// Returns the numbers of vertices and edges.
     fn size(&self) -> (usize, usize) {
         self.0.size()
     }
 
-    /// Graph with vertices computed from the measurements alone.
+    /// Returns a graph with vertices computed from the measurements alone.
     ///
     /// Parameters
     /// ----------
@@ -390,12 +390,13 @@ impl PoseGraph {
         Ok(Self(graph))
     }
 
-    /// Graph with the least sum of squared errors.
+    /// Returns the graph with the smallest sum of squared errors.
     ///
     /// Parameters
     /// ----------
     /// loss : str or dict, optional
-    ///     ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
+    ///     ``"trivial"`` or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"``
+    ///     likewise.
     /// progress : callable, optional
     ///     Called with the stage and the completed fraction.
     /// **options : LmOptions
@@ -435,13 +436,13 @@ impl PoseGraph {
 record! {
     /// Report of the optimization of a pose graph.
     "epipole.sfm" PoseGraphReport {
-        /// Sum of the weighted squared errors at the start.
+        /// Initial sum of the weighted squared errors.
         initial_chi2: f64,
-        /// Sum of the weighted squared errors at the end.
+        /// Final sum of the weighted squared errors.
         final_chi2: f64,
-        /// Steps tried.
+        /// Number of steps tried.
         iterations: usize,
-        /// Why the loop ended, as in `epipole.optim.LmReport`.
+        /// Reason the loop ended, as in `epipole.optim.LmReport`.
         termination: String,
         /// Number of connected parts.
         num_components: usize,

@@ -35,7 +35,7 @@ impl Row for Isometry3<f64> {
             )));
         }
         let translation = Translation3::new(row[0], row[1], row[2]);
-        // Keeps the bits of what is a unit quaternion already.
+        // Keep the bits of an exact unit quaternion.
         let rotation = if (q.norm_squared() - 1.0).abs() < 1e-14 {
             UnitQuaternion::new_unchecked(q)
         } else {

@@ -1,4 +1,4 @@
-//! Reconstructions, and the pose of another photo.
+//! Reconstructions, and localization of further photos.
 
 use super::bundle::Bundle;
 use super::images::SfmImage;
@@ -18,24 +18,24 @@ use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Cameras and points that share one frame.
+/// Cameras and points in one frame.
 ///
-/// Its scale and pose are arbitrary, unless positions of images are known: see `is_placed`.
+/// Scale and pose of the frame are arbitrary unless image positions are known: see `is_placed`.
 ///
 /// Parameters
 /// ----------
 /// cameras : list of PosedCamera or None
-///     Camera of each image, None if it could not be registered.
+///     Camera of each image; None if it could not be registered.
 /// points : array_like, shape (P, 3)
 ///     Points in the world.
 /// tracks : array_like of int, shape (K, 3)
-///     Observations: index of the point, of the image, and of its keypoint.
+///     Observations: indices of the point, of the image, and of the image's keypoint.
 /// colors : array_like of uint8, shape (P, 3), optional
-///     Red, green, blue. Gray if not given.
+///     Red, green, blue. Gray by default.
 /// errors_px : array_like, shape (P,), optional
-///     Root mean square of the reprojection errors of each point, pixels. 0 if not given.
+///     Root mean square of the reprojection errors of each point, pixels. 0 by default.
 /// is_placed : bool, optional
-///     Whether it stands where the known positions of its images are, in their unit of length.
+///     Whether the frame is that of the known image positions, in their unit of length.
 ///
 /// Raises
 /// ------
@@ -86,7 +86,7 @@ impl Reconstruction {
         }))
     }
 
-    /// Camera of each image, a list of `PosedCamera`, None if it could not be registered.
+    /// Camera of each image, a list of `PosedCamera`; None if it could not be registered.
     #[getter]
     fn cameras(&self) -> Vec<Option<PosedCamera>> {
         let cameras = self.0.cameras.iter();
@@ -105,7 +105,7 @@ impl Reconstruction {
         from_rows(py, &rows)
     }
 
-    /// Observations: index of the point, of the image, and of its keypoint, int64 of shape (K, 3).
+    /// Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint.
     #[getter]
     fn tracks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
         give_tracks(py, self.0.points.iter().map(|point| &*point.track))
@@ -123,23 +123,23 @@ impl Reconstruction {
         PyArray1::from_iter(py, self.0.points.iter().map(|point| point.error_px))
     }
 
-    /// Whether it stands where the known positions of its images are, in their unit of length.
+    /// Whether the frame is that of the known image positions, in their unit of length.
     #[getter]
     fn is_placed(&self) -> bool {
         self.0.is_placed
     }
 
-    /// Number of images with a camera.
+    /// Returns the number of images with a camera.
     fn num_registered(&self) -> usize {
         self.0.num_registered()
     }
 
-    /// Number of observations of all points.
+    /// Returns the number of observations of all points.
     fn num_observations(&self) -> usize {
         self.0.num_observations()
     }
 
-    /// The same in another world, moved by ``to_from_world``.
+    /// Returns the reconstruction in another world, transformed by ``to_from_world``.
     ///
     /// Parameters
     /// ----------
@@ -148,7 +148,7 @@ impl Reconstruction {
         Self(self.0.moved(&to_from_world.0))
     }
 
-    /// Pixel of a point in an image.
+    /// Projects a point into an image.
     ///
     /// Parameters
     /// ----------
@@ -159,7 +159,7 @@ impl Reconstruction {
     /// Returns
     /// -------
     /// ndarray or None, shape (2,)
-    ///     None if the camera does not see it.
+    ///     None if the camera does not see the point.
     fn project<'py>(
         &self,
         image: usize,
@@ -170,7 +170,7 @@ impl Reconstruction {
         Ok(pixel.map(|pixel| from_vector(point.py(), &pixel.coords)))
     }
 
-    /// Mean length of all reprojection errors, pixels.
+    /// Computes the mean length of all reprojection errors, pixels.
     ///
     /// Parameters
     /// ----------
@@ -186,7 +186,7 @@ impl Reconstruction {
         Ok(self.0.mean_reprojection_px(&images))
     }
 
-    /// The same for bundle adjustment.
+    /// Converts the reconstruction for bundle adjustment.
     ///
     /// Parameters
     /// ----------
@@ -211,12 +211,12 @@ impl Reconstruction {
         Ok((Bundle(bundle), give_indices(py, &images)))
     }
 
-    /// Pose of another photo.
+    /// Estimates the pose of another photo.
     ///
     /// Parameters
     /// ----------
     /// features : list of PhotoFeatures
-    ///     Those of the images of the reconstruction.
+    ///     Features of the images of the reconstruction.
     /// photo : PhotoFeatures
     /// camera : Camera
     ///     Camera of the photo.
@@ -268,7 +268,7 @@ impl Reconstruction {
 }
 
 impl Reconstruction {
-    /// Images of the library, if they have all keypoints of the tracks.
+    /// Returns images of the library, if they have all keypoints of the tracks.
     fn images(&self, images: Vec<SfmImage>) -> PyResult<Vec<sfm::SfmImage>> {
         require_equal(("images", images.len()), ("cameras", self.0.cameras.len()))?;
         let mut elements = self.0.points.iter().flat_map(|point| &point.track);
@@ -295,9 +295,9 @@ fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
 record! {
     /// Photo localized in a reconstruction.
     "epipole.sfm" Localization {
-        /// Pose of its camera.
+        /// Pose of the camera.
         cam_from_world: RigidTransform,
-        /// Points that agree with the pose: index of the point and of the photo's keypoint, int64
+        /// Points that agree with the pose: indices of the point and of the photo's keypoint, int64
         /// of shape (M, 2).
         inliers: Py<PyArray2<i64>>,
         /// Number of matches between keypoints of the photo and points.

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// isometry : RigidTransform, optional
-///     Rotation and translation. The identity if not given.
+///     Rotation and translation. The identity by default.
 /// scale : float, optional
 ///     Greater than 0.
 ///
@@ -65,17 +65,17 @@ impl Similarity3 {
         from_vector(py, &self.0.isometry.translation.vector)
     }
 
-    /// Homogeneous matrix, shape (4, 4).
+    /// Returns the homogeneous matrix, shape (4, 4).
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.to_homogeneous())
     }
 
-    /// The inverse transform: ``b_from_a``.
+    /// Returns the inverse transform: ``b_from_a``.
     fn inverse(&self) -> Self {
         Self(self.0.inverse())
     }
 
-    /// Composition with a similarity, or the image of points.
+    /// Composes two similarities, or transforms points.
     ///
     /// Parameters
     /// ----------

@@ -12,10 +12,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Reads rows of point, image and keypoint: the track of each point, sorted by image.
+/// Reads rows of point, image and keypoint into the track of each point, sorted by image.
 ///
 /// # Errors
-/// `ValueError` for the index of a point that is not there.
+/// `ValueError` for the index of a missing point.
 pub(crate) fn tracks(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -39,7 +39,7 @@ pub(crate) fn tracks(
     Ok(tracks)
 }
 
-/// Rows of point, image and keypoint, int64 of shape (K, 3).
+/// Returns rows of point, image and keypoint, int64 of shape (K, 3).
 pub(crate) fn give_tracks<'py, 'a>(
     py: Python<'py>,
     tracks: impl Iterator<Item = &'a [TrackElement]>,
@@ -58,13 +58,13 @@ pub(crate) fn give_tracks<'py, 'a>(
 /// num_keypoints : list of int
 ///     Number of keypoints of each image.
 /// pairs : list of PairMatches
-///     Matches that passed a geometric test. Those of pairs with many matches are trusted first.
+///     Geometrically verified matches. Pairs with many matches take precedence.
 ///
 /// Returns
 /// -------
 /// ndarray of int64, shape (K, 3)
-///     Index of the track, of the image, and of its keypoint, sorted. A track has at most one
-///     keypoint of an image.
+///     Indices of the track, the image and its keypoint, sorted. A track has at most one keypoint
+///     per image.
 ///
 /// Raises
 /// ------
@@ -82,21 +82,21 @@ pub(super) fn build_tracks(
 }
 
 record! {
-    /// Pair of images that passed the test of epipolar geometry.
+    /// Geometrically verified pair of images.
     "epipole.sfm" VerifiedPair {
-        /// Matches that passed.
+        /// Verified matches.
         pair: PairMatches,
-        /// Motion of the camera, ``|t| == 1``.
+        /// Motion of the camera, with ``|t| == 1``.
         cam2_from_cam1: RigidTransform,
-        /// Median angle between the two rays of a match, radians: small for pure rotations and far
+        /// Median triangulation angle of the matches, radians: small for pure rotations and distant
         /// scenes; 0 if a plane and a pure rotation explain the matches.
         median_angle_rad: f64,
-        /// Whether a homography explains most matches: a flat scene, or a pure rotation.
+        /// Whether a homography explains most matches: a flat scene or a pure rotation.
         is_flat: bool,
     }
 }
 
-/// Matches of two images that agree with one motion of the camera.
+/// Selects the matches of two images that agree with one motion of the camera.
 ///
 /// Parameters
 /// ----------
@@ -104,16 +104,16 @@ record! {
 /// images : tuple of SfmImage
 ///     The two images.
 /// cameras : tuple of Camera
-///     Their cameras.
+///     Cameras of the two images.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     Those of `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
+///     See `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
 ///
 /// Returns
 /// -------
 /// VerifiedPair or None
-///     None if too few agree.
+///     None if too few matches agree.
 ///
 /// Raises
 /// ------

@@ -14,28 +14,28 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 record! {
-    /// Two cameras and their points, in the frame of camera 1; the cameras have distance 1.
+    /// Two cameras at distance 1 and their points, in the frame of camera 1.
     "epipole.sfm" TwoViewReconstruction {
-        /// Refined motion, ``|t| == 1``.
+        /// Refined motion, with ``|t| == 1``.
         cam2_from_cam1: RigidTransform,
         /// Points, shape (P, 3).
         points: Py<PyArray2<f64>>,
-        /// The same points as first triangulated, shape (P, 3).
+        /// The same points before refinement, shape (P, 3).
         triangulated: Py<PyArray2<f64>>,
         /// Index of the match of each point, increasing, int64 of shape (P,).
         match_of_point: Py<PyArray1<i64>>,
-        /// Number of matches in front of both cameras by each of the four motions of E, most first.
+        /// Number of matches in front of both cameras for each motion of E, in descending order.
         num_in_front: [usize; 4],
-        /// Root mean square of the reprojection errors as first triangulated, pixels.
+        /// Root mean square of the reprojection errors before refinement, pixels.
         rms_before_px: f64,
-        /// Root mean square after the refinement, pixels.
+        /// Root mean square of the reprojection errors after refinement, pixels.
         rms_px: f64,
         /// `epipole.optim.LmReport` of the last refinement.
         report: Py<LmReport>,
     }
 }
 
-/// Points of the matches of two views, refined together with the motion.
+/// Triangulates the matches of two views and refines points and motion together.
 ///
 /// Parameters
 /// ----------
@@ -43,7 +43,7 @@ record! {
 ///     Matches without outliers.
 /// camera1, camera2 : Camera
 /// cam2_from_cam1 : RigidTransform
-///     Motion to start from; the length of its translation does not matter.
+///     Initial motion; the length of its translation does not matter.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : TwoViewReconstructionOptions

@@ -7,8 +7,8 @@ use numpy::{PyArray1, PyArray2, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Gives a class around a value of the library `__repr__`, `_repr_html_`, `__eq__` and
-/// `__reduce__`. Its constructor takes these attributes.
+/// Implements `__repr__`, `_repr_html_`, `__eq__` and `__reduce__` for a class that wraps a value
+/// of the library. The constructor of the class takes these attributes.
 macro_rules! wrapper {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]
@@ -48,7 +48,8 @@ pub(crate) fn object<'py>(
 /// Reads rows of D indices, shape `(N, D)`.
 ///
 /// # Errors
-/// `TypeError` for numbers that are no integers, `ValueError` for a shape and a negative index.
+/// `TypeError` for numbers that are not integers, `ValueError` for a wrong shape or a negative
+/// index.
 pub(crate) fn index_rows<const D: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -96,7 +97,7 @@ fn unsigned(name: &str, array: &Bound<'_, PyUntypedArray>) -> PyResult<Vec<usize
     numbers.iter().map(index).collect()
 }
 
-/// int64 array of shape `(N, D)`.
+/// Returns an int64 array of shape `(N, D)`.
 pub(crate) fn give_index_rows<'py, const D: usize>(
     py: Python<'py>,
     rows: impl Iterator<Item = [usize; D]>,
@@ -106,7 +107,7 @@ pub(crate) fn give_index_rows<'py, const D: usize>(
     PyArray1::from_vec(py, numbers).reshape([count, D])
 }
 
-/// int64 array of shape `(N,)`.
+/// Returns an int64 array of shape `(N,)`.
 pub(crate) fn give_indices<'py>(py: Python<'py>, indices: &[usize]) -> Bound<'py, PyArray1<i64>> {
     PyArray1::from_iter(py, indices.iter().map(|&index| index as i64))
 }
@@ -133,7 +134,7 @@ pub(crate) fn colors(name: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<V
     Ok(bytes.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect())
 }
 
-/// uint8 array of shape `(N, 3)`.
+/// Returns a uint8 array of shape `(N, 3)`.
 pub(crate) fn give_colors<'py>(
     py: Python<'py>,
     colors: impl Iterator<Item = [u8; 3]>,
@@ -143,7 +144,7 @@ pub(crate) fn give_colors<'py>(
     PyArray1::from_vec(py, bytes).reshape([count, 3])
 }
 
-/// Refuses columns of different length.
+/// Rejects columns of different length.
 ///
 /// # Errors
 /// `ValueError` naming both.
