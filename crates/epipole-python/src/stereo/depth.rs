@@ -1,4 +1,4 @@
-//! Depths and points of disparities.
+//! Depths and points from disparities.
 
 use crate::arrays::{from_points, matrix};
 use crate::errors::OrRaise;
@@ -12,7 +12,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
 record! {
-    /// Depths that an uncertain disparity allows.
+    /// Depths compatible with an uncertain disparity.
     "epipole.stereo" DepthInterval {
         /// Smallest depth, meters.
         near_m: f64,
@@ -31,7 +31,7 @@ record! {
 /// normals : ndarray of float64, shape (N, 3), optional
 ///     Unit normals.
 /// confidences : ndarray of float32, shape (N,), optional
-///     Numbers of photos that agree on a point.
+///     Number of photos that agree on each point.
 #[pyclass(frozen, get_all, module = "epipole.stereo")]
 pub(crate) struct PointCloud {
     /// Points, shape (N, 3).
@@ -40,7 +40,7 @@ pub(crate) struct PointCloud {
     colors: Option<Py<PyArray2<u8>>>,
     /// Unit normals, shape (N, 3), or None.
     normals: Option<Py<PyArray2<f64>>>,
-    /// Numbers of photos that agree on a point, float32 of shape (N,), or None.
+    /// Number of photos that agree on each point, float32 of shape (N,), or None.
     confidences: Option<Py<PyArray1<f32>>>,
 }
 
@@ -69,16 +69,16 @@ impl PointCloud {
     }
 }
 
-/// Depth of a point seen by a rectified pair, ``focal_px * baseline_m / disparity_px``.
+/// Computes the depth of points in a rectified pair, ``focal_px * baseline_m / disparity_px``.
 ///
 /// Parameters
 /// ----------
 /// focal_px : float
 ///     Focal length of both cameras, pixels, > 0.
 /// baseline_m : float
-///     Distance of the cameras, meters, > 0.
+///     Distance between the cameras, meters, > 0.
 /// disparity_px : float or array_like, shape (N,)
-///     ``u_left - u_right``, pixels; `depth_image` takes images.
+///     ``u_left - u_right``, pixels; see `depth_image` for images.
 ///
 /// Returns
 /// -------
@@ -108,7 +108,7 @@ pub(super) fn depth_from_disparity<'py>(
         return Ok(depth(disparity).or_raise()?.into_pyobject(py)?.into_any());
     }
     let disparities = column("disparity_px", disparity_px)?;
-    // An error of the rig is not one of a disparity.
+    // An error of the rig is not an error of a disparity.
     depth(1.0).or_raise()?;
     let depths = disparities
         .into_iter()
@@ -116,18 +116,18 @@ pub(super) fn depth_from_disparity<'py>(
     Ok(PyArray1::from_vec(py, depths.collect()).into_any())
 }
 
-/// Depths between ``f * B / (d + error_px)`` and ``f * B / (d - error_px)``.
+/// Computes the depths between ``f * B / (d + error_px)`` and ``f * B / (d - error_px)``.
 ///
 /// Parameters
 /// ----------
 /// focal_px : float
 ///     Focal length of both cameras, pixels, > 0.
 /// baseline_m : float
-///     Distance of the cameras, meters, > 0.
+///     Distance between the cameras, meters, > 0.
 /// disparity_px : float
 ///     Pixels.
 /// error_px : float
-///     Largest error of the disparity, pixels, >= 0.
+///     Maximum error of the disparity, pixels, >= 0.
 ///
 /// Returns
 /// -------
@@ -154,7 +154,7 @@ pub(super) fn depth_interval(
     })
 }
 
-/// Depth of every pixel, ``focal_px * baseline_m / disparity``.
+/// Computes the depth of every pixel, ``focal_px * baseline_m / disparity``.
 ///
 /// Parameters
 /// ----------
@@ -163,7 +163,7 @@ pub(super) fn depth_interval(
 /// focal_px : float
 ///     Focal length of both cameras, pixels, > 0.
 /// baseline_m : float
-///     Distance of the cameras, meters, > 0.
+///     Distance between the cameras, meters, > 0.
 ///
 /// Returns
 /// -------
@@ -186,21 +186,21 @@ pub(super) fn depth_image<'py>(
     from_gray(py, depth.or_raise()?)
 }
 
-/// Points of a rectified pair, ``(X, Y, Z, W) = Q @ (u, v, d, 1)``, in the first camera's frame.
+/// Computes points in the first camera's frame, ``(X, Y, Z, W) = Q @ (u, v, d, 1)``.
 ///
 /// Parameters
 /// ----------
 /// disparity : array_like of float, shape (H, W)
 ///     Pixels; NaN where unknown.
 /// q : array_like, shape (4, 4)
-///     `Rectification.q`, or that of `q_from_rig`.
+///     `Rectification.q`, or the result of `q_from_rig`.
 /// colors : array_like, shape (H, W, 3), optional
 ///     Rectified first image, uint8.
 ///
 /// Returns
 /// -------
 /// PointCloud
-///     Without pixels of unknown disparity, points at infinity and points behind the camera.
+///     Omits pixels without disparity, points at infinity and points behind the camera.
 #[pyfunction]
 #[pyo3(signature = (disparity, q, colors=None))]
 pub(super) fn point_cloud(

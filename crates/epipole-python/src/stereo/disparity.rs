@@ -1,4 +1,4 @@
-//! Cleaning and filling of disparities.
+//! Removal of speckles and filling of gaps in disparities.
 
 use crate::images::{disparity as read, from_disparity, gray8};
 use crate::progress;
@@ -6,16 +6,16 @@ use epipole::stereo;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-/// Disparities without small connected sets.
+/// Removes small connected sets of disparities.
 ///
 /// Parameters
 /// ----------
 /// disparity : array_like of float, shape (H, W)
 ///     Pixels; NaN where unknown.
 /// min_size : int
-///     Sets of fewer pixels are removed.
+///     Sets with fewer pixels are removed.
 /// range_px : float
-///     Neighbors are connected if they differ by at most this, pixels, >= 0.
+///     Neighbors are connected if their disparities differ by at most this, pixels, >= 0.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -43,14 +43,14 @@ pub(super) fn remove_speckles<'py>(
     from_disparity(py, disparity)
 }
 
-/// Disparities of every pixel: gaps take those of the background beside them.
+/// Fills all gaps with the disparity of the background beside them.
 ///
 /// Parameters
 /// ----------
 /// disparity : array_like of float, shape (H, W)
 ///     Pixels; NaN where unknown.
 /// left : array_like, shape (H, W)
-///     Gray image that the disparities belong to, uint8 or float in [0, 1].
+///     Gray image of the disparities, uint8 or float in [0, 1].
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///

@@ -1,4 +1,4 @@
-//! Dense matchers: classes whose attributes are the library's options.
+//! Dense matchers: classes with the library's options as attributes.
 
 use crate::images::{Image, from_disparity};
 use crate::{options, progress};
@@ -15,7 +15,7 @@ use serde::Serialize;
 
 /// Dense matcher of the library.
 pub(super) trait Matcher: Sync {
-    /// Disparities of bytes.
+    /// Computes disparities from bytes.
     fn bytes(
         &self,
         left: &GrayImage,
@@ -23,7 +23,7 @@ pub(super) trait Matcher: Sync {
         monitor: &mut dyn Monitor,
     ) -> epipole::Result<DisparityImage>;
 
-    /// Disparities of floats.
+    /// Computes disparities from floats.
     fn floats(
         &self,
         left: &GrayImage32,
@@ -58,12 +58,12 @@ fn compute<'py>(
     from_disparity(py, disparity?)
 }
 
-/// Options as a dictionary.
+/// Returns options as a dictionary.
 fn fields<'py>(py: Python<'py>, options: &impl Serialize) -> PyResult<Bound<'py, PyDict>> {
     Ok(pythonize(py, options)?.cast_into::<PyDict>()?)
 }
 
-/// Defines a class of a matcher: keyword constructor, attributes, equality, pickling, `compute`.
+/// Defines the class of a matcher: keyword constructor, attributes, equality, pickling, `compute`.
 macro_rules! matcher {
     ($(#[doc = $doc:literal])* $class:ident) => {
         $(#[doc = $doc])*
@@ -99,13 +99,12 @@ macro_rules! matcher {
                 Ok(Self(options::read(options)?))
             }
 
-            /// Disparities ``u_left - u_right`` of the pixels of `left`.
+            /// Computes disparities ``u_left - u_right`` of the pixels of `left`.
             ///
             /// Parameters
             /// ----------
-            /// left, right : array_like, shape (H, W)
-            ///     Rectified gray images: matches share a row. Both uint8, or both float of any
-            ///     range, whose smallest and largest value become 0 and 255.
+            /// Rectified gray images whose matches share a row. Both uint8, or both float with any
+            /// range; their minimum and maximum are mapped to 0 and 255.
             /// progress : callable, optional
             ///     Called with the stage and the completed fraction.
             ///
@@ -169,24 +168,25 @@ macro_rules! matcher {
 }
 
 matcher! {
-    /// Dense disparity of a rectified pair by block matching: fast.
+    /// Fast dense stereo of a rectified pair by block matching.
     ///
     /// Parameters
     /// ----------
     /// **options : StereoBm
-    ///     Such as ``num_disparities``, ``min_disparity_px``, ``window_px`` (odd), and ``filter``,
-    ///     a dict with entries such as ``"speckle_size"``. ``StereoBm()`` shows all, with defaults.
+    ///     For example ``num_disparities``, ``min_disparity_px``, ``window_px`` (odd), and
+    ///     ``filter``, a dict with entries such as ``"speckle_size"``. ``StereoBm()`` shows all
+    ///     options with their defaults.
     StereoBm
 }
 
 matcher! {
-    /// Dense disparity of a rectified pair by semi-global matching.
+    /// Dense stereo of a rectified pair by semi-global matching.
     ///
     /// Parameters
     /// ----------
     /// **options : StereoSgm
-    ///     Such as ``num_disparities``, ``min_disparity_px``, ``paths`` ("four", "five", "eight"),
-    ///     and ``filter``, a dict with entries such as ``"speckle_size"``. ``StereoSgm()`` shows
-    ///     all, with defaults.
+    ///     For example ``num_disparities``, ``min_disparity_px``, ``paths`` ("four", "five",
+    ///     "eight"), and ``filter``, a dict with entries such as ``"speckle_size"``.
+    ///     ``StereoSgm()`` shows all options with their defaults.
     StereoSgm
 }

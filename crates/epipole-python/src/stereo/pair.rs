@@ -1,4 +1,4 @@
-//! Photos redrawn for a rectified rig.
+//! Photos warped by a rectified rig.
 
 use super::matcher::{Matcher, StereoBm, StereoSgm};
 use super::rectify::Rectification;
@@ -14,15 +14,15 @@ use pyo3::prelude::*;
 /// Pair of arrays of shape (H, W, 3).
 type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
 
-/// Two photos as a rectified rig sees them.
+/// Two photos warped by a rectified rig.
 ///
-/// Borders that no photo fills have no disparities, and vertical rigs are turned for matching.
+/// Empty borders get no disparities, and images of vertical rigs are transposed for matching.
 ///
 /// Parameters
 /// ----------
 /// rig : Rectification
 /// photograph1, photograph2 : array_like, shape (H, W, 3)
-///     uint8, of the sizes of the rig's cameras.
+///     uint8, with the image sizes of the rig's cameras.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 #[pyclass(frozen, module = "epipole.stereo")]
@@ -78,7 +78,7 @@ impl RectifiedPair {
         from_rgb(py, self.photographs[1].clone())
     }
 
-    /// Redrawn photos, black where they fill nothing.
+    /// Rectified photos, black outside the image content.
     ///
     /// Returns
     /// -------
@@ -89,21 +89,21 @@ impl RectifiedPair {
         Ok((from_rgb(py, first.clone())?, from_rgb(py, second.clone())?))
     }
 
-    /// Number of pixels of the first picture that its photo fills.
+    /// Number of pixels of the first rectified photo with image content.
     #[getter]
     fn num_shown(&self) -> usize {
         self.pair.num_shown()
     }
 
-    /// Disparities of the first picture, along the columns if the rig is vertical.
+    /// Computes disparities of the first rectified photo, along the columns if the rig is vertical.
     ///
     /// Parameters
     /// ----------
     /// matching : StereoSgm, StereoBm or callable
     ///     ``matching(left, right)`` returns the disparities of two uint8 gray images whose matches
-    ///     share a row, float of shape (h, w), NaN where unknown.
+    ///     share a row: float of shape (h, w), NaN where unknown.
     /// progress : callable, optional
-    ///     Called with the stage and the completed share, for a matcher of this module.
+    ///     Called with the stage and the completed fraction, for a matcher of this module.
     ///
     /// Returns
     /// -------
@@ -132,7 +132,7 @@ impl RectifiedPair {
         from_disparity(py, found?)
     }
 
-    /// Disparities of every pixel that the first photo fills, as `fill_gaps`.
+    /// Fills the disparities of all pixels with image content, like `fill_gaps`.
     ///
     /// Parameters
     /// ----------
@@ -171,7 +171,7 @@ impl RectifiedPair {
         })
     }
 
-    /// Disparities by a Python callable, whose exception is raised.
+    /// Computes disparities by a Python callable and propagates its exceptions.
     fn called(&self, matching: &Bound<'_, PyAny>) -> PyResult<DisparityImage> {
         let py = matching.py();
         let call = |left: &GrayImage, right: &GrayImage| {
@@ -196,7 +196,7 @@ impl RectifiedPair {
     }
 }
 
-/// Refuses disparities of another size than the images.
+/// Rejects disparities that differ in size from the images.
 fn require_same(size: (u32, u32), found: DisparityImage) -> PyResult<DisparityImage> {
     if (found.width(), found.height()) == size {
         return Ok(found);

@@ -1,4 +1,4 @@
-//! Maps of pixels of a result to places in a source image.
+//! Maps from the pixels of a result to positions in a source image.
 
 use crate::arrays::{as_array, matrix};
 use crate::images::{Image, elements, from_gray, kind, require_size, same_kind, wrong_shape};
@@ -10,12 +10,12 @@ use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
-/// Place in a source image that each pixel of a result is read from.
+/// Map from each pixel of a result to a position in a source image.
 ///
 /// Parameters
 /// ----------
 /// sources : array_like of float, shape (H, W, 2)
-///     (u, v) in the source, pixels; NaN for none. Kept as float32.
+///     (u, v) in the source, pixels; NaN for none. Stored as float32.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct PixelMap(pub(super) stereo::PixelMap);
 
@@ -45,14 +45,14 @@ impl PixelMap {
         Ok(Self(map?))
     }
 
-    /// Map of a homography.
+    /// Creates the map of a homography.
     ///
     /// Parameters
     /// ----------
     /// width, height : int
     ///     Size of the result, pixels.
     /// out_from_source : array_like, shape (3, 3)
-    ///     Pixels of the source to pixels of the result, up to scale.
+    ///     Homography from pixels of the source to pixels of the result, at any scale.
     /// progress : callable, optional
     ///     Called with the stage and the completed fraction.
     ///
@@ -91,7 +91,7 @@ impl PixelMap {
         self.0.height()
     }
 
-    /// Places in the source, float32 of shape (H, W, 2); NaN for none.
+    /// Positions in the source, float32 of shape (H, W, 2); NaN for none.
     #[getter]
     fn sources<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f32>>> {
         let (width, height) = (self.0.width(), self.0.height());
@@ -105,7 +105,7 @@ impl PixelMap {
         PyArray1::from_vec(py, values).reshape([height as usize, width as usize, 2])
     }
 
-    /// Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
+    /// Returns the source position of pixel (u, v) of the result, shape (2,), or None.
     ///
     /// Parameters
     /// ----------
@@ -116,7 +116,7 @@ impl PixelMap {
         Some(PyArray1::from_slice(py, &[source.x, source.y]))
     }
 
-    /// Redrawn image, bilinear, 0 where nothing is read.
+    /// Warps an image, bilinearly, with 0 where nothing is read.
     ///
     /// Parameters
     /// ----------
@@ -142,7 +142,7 @@ impl PixelMap {
         warped.give(py)
     }
 
-    /// Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
+    /// Returns 255 where an image of the given size is read, else 0; uint8 of shape (H, W).
     ///
     /// Parameters
     /// ----------

@@ -16,13 +16,13 @@ use pyo3::types::PyDict;
 record! {
     /// Rectangle of pixel coordinates.
     "epipole.stereo" PixelRect {
-        /// Left end.
+        /// Left edge.
         u_min: f64,
-        /// Upper end.
+        /// Top edge.
         v_min: f64,
-        /// Right end.
+        /// Right edge.
         u_max: f64,
-        /// Lower end.
+        /// Bottom edge.
         v_max: f64,
     }
 }
@@ -49,29 +49,29 @@ impl PixelRect {
     }
 }
 
-/// Rectified rig: two virtual cameras that are parallel and share a focal length.
+/// Rectified rig: two virtual parallel cameras with the same focal length.
 ///
-/// Matches share a row, or a column if `is_vertical`. `rectify_calibrated` makes it.
+/// Matches share a row, or a column if `is_vertical`. Created by `rectify_calibrated`.
 ///
 /// Parameters
 /// ----------
 /// cameras : tuple of Camera
-///     Of the photos.
+///     Cameras of the photos.
 /// rect_from_cam : array_like, shape (2, 3, 3)
 ///     Rotations of the cameras' rays into the rectified frame.
 /// intrinsics : tuple of Intrinsics
-///     Of the rectified pictures.
+///     Intrinsics of the rectified images.
 /// homographies : array_like, shape (2, 3, 3)
-///     From pixels of the photos to those of the pictures, for a pinhole.
+///     Homographies from undistorted pixels of the photos to rectified pixels.
 /// q : array_like, shape (4, 4)
 ///     ``(X, Y, Z, W) = q @ (u, v, d, 1)``.
 /// is_vertical : bool
 /// baseline_m : float
-///     Meters.
+///     Distance between the cameras, meters.
 /// width, height : int
-///     Size of the pictures, pixels.
+///     Size of the rectified images, pixels.
 /// valid : tuple of PixelRect
-///     Part of each picture that its photo fills.
+///     Part of each rectified image that its photo fills.
 ///
 /// Raises
 /// ------
@@ -155,7 +155,7 @@ impl Rectification {
         self.0.is_vertical
     }
 
-    /// Distance of the cameras, meters.
+    /// Distance between the cameras, meters.
     #[getter]
     fn baseline_m(&self) -> f64 {
         self.0.baseline_m
@@ -173,13 +173,13 @@ impl Rectification {
         self.0.height
     }
 
-    /// Large rectangles in the rectified images that the cameras saw whole, a pair.
+    /// Large rectangles of the rectified images that are full of image content, a pair.
     #[getter]
     fn valid(&self) -> (PixelRect, PixelRect) {
         self.0.valid.map(PixelRect::from).into()
     }
 
-    /// Rectified pixels of pixels of photo 0 or 1.
+    /// Maps pixels of photo 0 or 1 to rectified pixels.
     ///
     /// Parameters
     /// ----------
@@ -208,7 +208,7 @@ impl Rectification {
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), rectify)
     }
 
-    /// Pixels of photo 0 or 1 that rectified pixels are read from.
+    /// Maps rectified pixels to pixels of photo 0 or 1.
     ///
     /// Parameters
     /// ----------
@@ -219,7 +219,7 @@ impl Rectification {
     /// Returns
     /// -------
     /// ndarray of the same shape
-    ///     Rows of NaN for pixels that the camera cannot see.
+    ///     Rows of NaN for pixels outside the camera's view.
     ///
     /// Raises
     /// ------
@@ -240,7 +240,7 @@ impl Rectification {
         Batch::<2>::read("rectified", rectified)?.vectors(rectified.py(), source)
     }
 
-    /// Map that redraws photo 0 or 1.
+    /// Creates the map that rectifies photo 0 or 1.
     ///
     /// Parameters
     /// ----------
@@ -260,7 +260,7 @@ impl Rectification {
         })?))
     }
 
-    /// Pixels of the first rectified image that show points, and their disparities.
+    /// Projects points into the first rectified image, with their disparities.
     ///
     /// Parameters
     /// ----------
@@ -284,7 +284,7 @@ impl Rectification {
         Batch::<3>::read("place", place)?.vectors(place.py(), disparity)
     }
 
-    /// Smallest and largest disparity to search, pixels, from points that both photos show.
+    /// Returns the minimum and maximum disparity to search, pixels, from points in both photos.
     ///
     /// Parameters
     /// ----------
@@ -306,7 +306,7 @@ impl Rectification {
 }
 
 impl Rectification {
-    /// Raises for a wrong index also where errors of single pixels become NaN.
+    /// Rejects an invalid index even where errors of single pixels become NaN.
     fn require_index(&self, index: usize) -> PyResult<()> {
         (self.0.source_pixel(index, &Point2::origin())).or_raise()?;
         Ok(())
@@ -320,17 +320,17 @@ fn unseen(what: &'static str) -> Error {
     }
 }
 
-/// Rectification of two calibrated cameras.
+/// Rectifies two calibrated cameras.
 ///
 /// Parameters
 /// ----------
 /// camera1, camera2 : Camera
-///     Cameras of the first (left) and second (right) photo, of the same size.
+///     Cameras of the first (left) and second (right) photo, with equal image sizes.
 /// cam2_from_cam1 : RigidTransform
 ///     Translation in meters.
 /// **options : RectifyOptions
 ///     ``alpha=0.0``: from 0, only valid pixels, to 1, all pixels of the photos; ``size=(width,
-///     height)`` of the results, pixels; ``zero_disparity_at_infinity=True``.
+///     height)`` of the rectified images, pixels; ``zero_disparity_at_infinity=True``.
 ///
 /// Returns
 /// -------
@@ -361,14 +361,14 @@ pub(super) fn rectify_calibrated(
     Ok(Rectification(rig.or_raise()?))
 }
 
-/// Q of a rectified pair with common focal length and principal point.
+/// Computes Q of a rectified pair with common focal length and principal point.
 ///
 /// Parameters
 /// ----------
 /// focal_px : float
-///     Pixels, > 0.
+///     Focal length, pixels, > 0.
 /// baseline_m : float
-///     Meters, > 0.
+///     Distance between the cameras, meters, > 0.
 /// cu_px, cv_px : float
 ///     Principal point, pixels.
 ///

@@ -10,20 +10,20 @@ use numpy::PyArray3;
 use pyo3::prelude::*;
 
 record! {
-    /// Homographies that put matches into the same row, or column.
+    /// Homographies that move matches into the same row, or column.
     "epipole.stereo" UncalibratedRectification {
         /// Homographies from pixels of the photos to rectified pixels, shape (2, 3, 3).
         homographies: Py<PyArray3<f64>>,
         /// Whether matches share a column instead of a row.
         is_vertical: bool,
-        /// Smallest and largest disparity among the matches, pixels.
+        /// Minimum and maximum disparity of the matches, pixels.
         disparity_range_px: (f64, f64),
-        /// Smallest rectangles around the rectified photos, a pair.
+        /// Bounding rectangles of the rectified photos, a pair.
         outlines: (Py<PixelRect>, Py<PixelRect>),
     }
 }
 
-/// Rectification from a fundamental matrix and matches (Hartley).
+/// Rectifies a pair from its fundamental matrix and matches (Hartley).
 ///
 /// Parameters
 /// ----------
