@@ -14,7 +14,7 @@ use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Flat board with marks at known places: x along its columns, y along its rows, z = 0.
+/// Flat board with marks at known positions: x along its columns, y along its rows, z = 0.
 ///
 /// Parameters
 /// ----------
@@ -23,10 +23,10 @@ use pyo3::types::PyTuple;
 ///     ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}`` or
 ///     ``{"april_grid": {"spacing": 0.3}}``.
 /// columns, rows : int
-///     Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks in a
-///     row and rows of a grid of circles.
+///     Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks per
+///     row and rows of disks in a circle grid.
 /// square_m : float
-///     Side of a square or a tag, or distance of two rows of circles, meters.
+///     Side of a square or tag, or distance between two rows of circles, meters.
 ///
 /// Raises
 /// ------
@@ -42,7 +42,7 @@ use pyo3::types::PyTuple;
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(super) struct Board {
     pub(super) board: calibration::Board,
-    /// Columns and rows as given.
+    /// Columns and rows given to the constructor.
     given: (usize, usize),
 }
 
@@ -84,19 +84,19 @@ impl Board {
         self.given.1
     }
 
-    /// Marks in a row: inner corners of squares, corners of tags, or disks.
+    /// Number of marks per row: inner corners of squares, corners of tags, or disks.
     #[getter]
     fn mark_columns(&self) -> usize {
         self.board.columns()
     }
 
-    /// Rows of marks.
+    /// Number of rows of marks.
     #[getter]
     fn mark_rows(&self) -> usize {
         self.board.rows()
     }
 
-    /// Side of a square or a tag, or distance of two rows of circles, meters.
+    /// Side of a square or tag, or distance between two rows of circles, meters.
     #[getter]
     fn square_m(&self) -> f64 {
         self.board.square_m()
@@ -108,12 +108,12 @@ impl Board {
         self.board.num_marks()
     }
 
-    /// Place of a mark on the board, meters, shape (2,). Marks are counted row by row.
+    /// Returns the position of a mark on the board, meters, shape (2,). Marks are counted by row.
     ///
     /// Parameters
     /// ----------
     /// index : int
-    ///     Number of the mark, from 0.
+    ///     Index of the mark, from 0.
     ///
     /// Raises
     /// ------
@@ -128,14 +128,14 @@ impl Board {
         Ok(from_vector(py, &self.board.mark(index).coords))
     }
 
-    /// Places of all marks on the board, meters, shape (N, 2).
+    /// Returns the positions of all marks on the board, meters, shape (N, 2).
     fn marks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let indices = 0..self.board.num_marks();
         let rows: Vec<_> = indices.map(|index| self.board.mark(index).coords).collect();
         from_rows(py, &rows)
     }
 
-    /// Black shapes of the board.
+    /// Returns the black shapes of the board.
     ///
     /// Returns
     /// -------
@@ -187,12 +187,12 @@ record! {
     }
 }
 
-/// Marks of a board seen in one photo.
+/// Marks of a board in one photo.
 ///
 /// Parameters
 /// ----------
 /// pixels : array_like, shape (N, 2)
-///     Pixel of each mark of the board, row by row; NaN where it is not seen.
+///     Pixel of each mark of the board, row by row; NaN where not visible.
 #[pyclass(frozen, from_py_object, module = "epipole.calibration")]
 #[derive(Clone)]
 pub(crate) struct BoardView(pub(super) calibration::BoardView);
@@ -218,7 +218,7 @@ impl BoardView {
         }))
     }
 
-    /// Pixel of each mark of the board, shape (N, 2); NaN where it is not seen.
+    /// Pixel of each mark of the board, shape (N, 2); NaN where not visible.
     #[getter]
     fn pixels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let hidden = Point2::new(f64::NAN, f64::NAN);
@@ -227,7 +227,7 @@ impl BoardView {
         from_rows(py, &rows)
     }
 
-    /// Marks that are seen, with their pixels.
+    /// Returns the visible marks with their pixels.
     ///
     /// Returns
     /// -------
@@ -243,7 +243,7 @@ impl BoardView {
         Ok((marks, from_rows(py, &pixels)?))
     }
 
-    /// Number of marks seen.
+    /// Number of visible marks.
     fn num_seen(&self) -> usize {
         self.0.num_seen()
     }

@@ -20,9 +20,9 @@ use pyo3::types::PyDict;
 /// cam_from_board : RigidTransform
 ///     Pose of the board, meters.
 /// rms_px : float
-///     Root mean square of its reprojection errors, pixels.
+///     Root mean square of the reprojection errors of the view, pixels.
 /// num_marks : int
-///     Number of marks seen.
+///     Number of visible marks.
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct CalibratedView(calibration::CalibratedView);
 
@@ -45,13 +45,13 @@ impl CalibratedView {
         self.0.cam_from_board.into()
     }
 
-    /// Root mean square of its reprojection errors, pixels.
+    /// Root mean square of the reprojection errors of the view, pixels.
     #[getter]
     fn rms_px(&self) -> f64 {
         self.0.rms_px
     }
 
-    /// Number of marks seen.
+    /// Number of visible marks.
     #[getter]
     fn num_marks(&self) -> usize {
         self.0.num_marks
@@ -59,11 +59,11 @@ impl CalibratedView {
 }
 
 record! {
-    /// Cause of uncertainty that the errors of a calibration do not show.
+    /// Cause of uncertainty that the errors of a calibration do not reveal.
     "epipole.calibration" CalibrationWarning {
         /// "parallel", "uncertain_focal", "low_coverage" or "bad_view".
         kind: String,
-        /// Cause as a sentence.
+        /// Cause in words, as a sentence.
         message: String,
     }
 }
@@ -89,27 +89,27 @@ record! {
     "epipole.calibration" Calibration {
         /// Camera.
         camera: Camera,
-        /// Root mean square of all reprojection errors: distances, in pixels.
+        /// Root mean square of all reprojection errors (distances), pixels.
         rms_px: f64,
         /// Standard deviation of fu, fv, cu, cv, pixels, shape (4,).
         std_dev_k: Py<PyArray1<f64>>,
-        /// Standard deviation of each coefficient of the lens.
+        /// Standard deviation of each lens coefficient.
         std_dev_lens: Py<PyArray1<f64>>,
-        /// Share of the image's area inside the marks of some view, 0 to 1.
+        /// Fraction of the image area covered by marks of some view, 0 to 1.
         coverage: f64,
-        /// For each view given a `CalibratedView`, or None where none was given.
+        /// `CalibratedView` of each given view, or None where none was given.
         views: Vec<Option<Py<CalibratedView>>>,
         /// List of `CalibrationWarning`.
         warnings: Vec<Py<CalibrationWarning>>,
     }
 }
 
-/// Views of the library.
+/// Converts views to those of the library.
 fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
     views.into_iter().map(|view| Some(view?.0)).collect()
 }
 
-/// Intrinsics, lens, and poses of the board with the least squared reprojection errors.
+/// Calibrates a camera: estimates intrinsics, lens and board poses with minimal error.
 ///
 /// Parameters
 /// ----------
@@ -121,7 +121,7 @@ fn views(views: Vec<Option<BoardView>>) -> Vec<Option<calibration::BoardView>> {
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : CalibrationOptions
-///     ``lens``, the model of the lens, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
+///     ``lens``, the lens model, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
 ///
 /// Returns
 /// -------
@@ -168,7 +168,7 @@ pub(super) fn calibrate(
 }
 
 record! {
-    /// Two cameras mounted on a rig.
+    /// Calibrated rig of two cameras.
     "epipole.calibration" RigCalibration {
         /// ``x_in_right = right_from_left @ x_in_left``, meters.
         right_from_left: RigidTransform,
@@ -176,17 +176,17 @@ record! {
         baseline_m: f64,
         /// Root mean square of the reprojection errors in both cameras, pixels.
         rms_px: f64,
-        /// Standard deviation of the rotation about the axes of the right camera, radians,
-        /// shape (3,).
+        /// Standard deviation of the rotation about the axes of the right camera, radians, shape
+        /// (3,).
         std_dev_rotation_rad: Py<PyArray1<f64>>,
         /// Standard deviation of the translation, meters, shape (3,).
         std_dev_translation_m: Py<PyArray1<f64>>,
-        /// Root mean square of each pair, pixels; None where not both cameras see the board.
+        /// Root mean square of each pair, pixels; None unless both cameras see the board.
         pairs_rms_px: Vec<Option<f64>>,
     }
 }
 
-/// Relative pose of two calibrated cameras that see the same boards.
+/// Calibrates the relative pose of two calibrated cameras that see the same boards.
 ///
 /// Parameters
 /// ----------
@@ -194,7 +194,7 @@ record! {
 /// cameras : tuple of Camera
 ///     Left and right camera.
 /// left, right : list of BoardView or None
-///     Marks in the photos of each camera, taken in pairs.
+///     Marks in the photos of each camera, in pairs.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -235,12 +235,12 @@ pub(super) fn calibrate_rig(
     })
 }
 
-/// K from homographies of planes, in closed form (Zhang).
+/// Computes K from homographies of planes, in closed form (Zhang).
 ///
 /// Parameters
 /// ----------
 /// pixels_from_plane : array_like, shape (N, 3, 3)
-///     Homographies from a plane in its own unit to pixels, N >= 3.
+///     Homographies from a plane, in its own unit, to pixels, N >= 3.
 ///
 /// Returns
 /// -------

@@ -1,4 +1,4 @@
-//! Boards and markers in photos, and photos of boards.
+//! Boards and markers in photos, and rendered photos of boards.
 
 use super::board::{Board, BoardView};
 use crate::arrays::from_rows;
@@ -15,18 +15,18 @@ use pyo3::types::PyDict;
 record! {
     /// Result of a search for a board.
     "epipole.calibration" BoardSearch {
-        /// "found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        /// "found"; "partial", a grid of another size; "markers", too few marks of the board; or
         /// "nothing".
         kind: String,
-        /// Marks, if the board was found.
+        /// Visible marks, if the board was found.
         view: Option<BoardView>,
-        /// Marks along the longer side of a partial board.
+        /// Number of marks along the longer side of a partial board.
         columns: Option<usize>,
-        /// Marks along the shorter side of a partial board.
+        /// Number of marks along the shorter side of a partial board.
         rows: Option<usize>,
-        /// Number of marks seen of a partial board.
+        /// Number of visible marks of a partial board.
         num_seen: Option<usize>,
-        /// Number of markers that are placed as on the board.
+        /// Number of markers that belong to the board.
         num_of_board: Option<usize>,
         /// Number of other markers of the dictionary.
         num_others: Option<usize>,
@@ -35,12 +35,12 @@ record! {
 
 #[pymethods]
 impl BoardSearch {
-    /// Why the board was not found, as a sentence; None if it was.
+    /// Returns the reason the board was not found, as a sentence; None if it was.
     ///
     /// Parameters
     /// ----------
     /// board : Board
-    ///     Board that was searched.
+    ///     Board of the search.
     ///
     /// Raises
     /// ------
@@ -122,7 +122,7 @@ impl From<calibration::BoardSearch> for BoardSearch {
 /// Returns
 /// -------
 /// BoardSearch
-///     Its `view` has the marks; None if the board was not found.
+///     Marks are in `view`, which is None if the board was not found.
 ///
 /// Raises
 /// ------
@@ -144,12 +144,12 @@ pub(super) fn find_board(
     Ok(search.into())
 }
 
-/// Set of square markers, with the names and numbers of OpenCV.
+/// Set of square markers, with OpenCV's names and numbers.
 ///
 /// Parameters
 /// ----------
 /// name : str
-///     Such as ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
+///     For example ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
 #[pyclass(frozen, eq, module = "epipole.calibration")]
 #[derive(PartialEq)]
 pub(super) struct MarkerDictionary(calibration::MarkerDictionary);
@@ -174,14 +174,14 @@ impl MarkerDictionary {
         Ok(Self(dictionary("name", name)?))
     }
 
-    /// Dictionaries of all kinds.
+    /// Returns the dictionaries of all kinds.
     #[staticmethod]
     fn all() -> Vec<Self> {
         let all = calibration::MarkerDictionary::ALL.into_iter();
         all.map(Self).collect()
     }
 
-    /// Name as in OpenCV without the prefix, such as "4x4_50".
+    /// Name as in OpenCV, without the prefix, such as "4x4_50".
     #[getter]
     fn name(&self) -> &'static str {
         self.0.name()
@@ -193,19 +193,19 @@ impl MarkerDictionary {
         self.0.num_markers()
     }
 
-    /// Bits along a side, without the border.
+    /// Number of bits along a side, without the border.
     #[getter]
     fn num_bits(&self) -> usize {
         self.0.num_bits()
     }
 
-    /// Number of wrong bits up to which markers are accepted by default.
+    /// Maximum number of wrong bits at which markers are accepted by default.
     #[getter]
     fn max_hamming(&self) -> u32 {
         self.0.max_hamming()
     }
 
-    /// Whether a bit of an upright marker is white.
+    /// Returns whether a bit of an upright marker is white.
     ///
     /// Parameters
     /// ----------
@@ -238,10 +238,10 @@ record! {
     "epipole.calibration" Marker {
         /// Number in the dictionary.
         id: usize,
-        /// Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
-        /// left in an upright marker.
+        /// Corners of the black border, pixels, shape (4, 2): clockwise from the upper left one of
+        /// the upright marker.
         corners: Py<PyArray2<f64>>,
-        /// Number of bits that differ from the dictionary's.
+        /// Number of bits that differ from the dictionary.
         hamming: u32,
     }
 }
@@ -253,7 +253,7 @@ record! {
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// dictionary : str or MarkerDictionary
-///     Such as ``"4x4_50"`` or ``"36h11"``.
+///     For example ``"4x4_50"`` or ``"36h11"``.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : MarkerOptions
@@ -262,7 +262,7 @@ record! {
 /// Returns
 /// -------
 /// list of Marker
-///     By number.
+///     Sorted by number.
 ///
 /// Raises
 /// ------
@@ -293,14 +293,14 @@ pub(super) fn detect_markers(
     markers.iter().map(give).collect()
 }
 
-/// Photo of a board, with exact truth.
+/// Renders a photo of a board with known ground truth.
 ///
 /// Parameters
 /// ----------
 /// board : Board
 /// camera : Camera
 /// cam_from_board : RigidTransform
-///     Meters.
+///     Pose of the board, meters.
 /// noise : float, optional
 ///     Standard deviation of the gray values.
 /// seed : int, optional

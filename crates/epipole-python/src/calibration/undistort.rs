@@ -8,13 +8,13 @@ use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::prelude::*;
 
-/// Best camera without distortion for the photos of a camera, and the map to its images.
+/// Best undistorted camera for the photos of a camera, and the map to it.
 ///
 /// Parameters
 /// ----------
 /// camera : Camera
 /// keep : {"valid", "all"}, optional
-///     Only the area that was photographed everywhere, or all with black borders.
+///     Only the area that is valid everywhere, or the whole image with black borders.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -28,7 +28,7 @@ use pyo3::prelude::*;
 #[pyclass(frozen, module = "epipole.calibration")]
 pub(crate) struct Undistortion(Content);
 
-/// Content, with the arguments of the constructor.
+/// The library's result, with the arguments of the constructor.
 #[derive(PartialEq)]
 struct Content {
     camera: epipole::camera::Camera,
@@ -67,7 +67,7 @@ impl Undistortion {
         self.0.camera.into()
     }
 
-    /// Area that is kept.
+    /// Kept area.
     ///
     /// Returns
     /// -------
@@ -78,13 +78,13 @@ impl Undistortion {
         Ok(pythonize::pythonize(py, &self.0.keep)?)
     }
 
-    /// K of the new camera. Its pixels are square.
+    /// K of the undistorted camera. Its pixels are square.
     #[getter]
     fn intrinsics(&self) -> Intrinsics {
         self.0.undistortion.intrinsics.into()
     }
 
-    /// Part of the result in which every pixel was photographed.
+    /// Part of the result in which every pixel has image content.
     ///
     /// Returns
     /// -------
@@ -96,7 +96,7 @@ impl Undistortion {
         object(py, "epipole.stereo", "PixelRect", ends)
     }
 
-    /// Place in the photo that each pixel of the result is read from.
+    /// Source position of every pixel of the result.
     ///
     /// Returns
     /// -------
@@ -119,7 +119,7 @@ impl Undistortion {
 }
 
 impl Undistortion {
-    /// Undistortion of the library.
+    /// Returns the undistortion of the library.
     pub(crate) fn core(&self) -> &calibration::Undistortion {
         &self.0.undistortion
     }
