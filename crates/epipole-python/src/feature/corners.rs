@@ -10,7 +10,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Harris response at each pixel: ``det M - k * trace(M)**2`` of the structure tensor M.
+/// Computes the Harris response at each pixel, ``det M - k * trace(M)**2`` (structure tensor M).
 ///
 /// Parameters
 /// ----------
@@ -48,7 +48,7 @@ pub(super) fn harris_response<'py>(
     from_gray(image.py(), response?)
 }
 
-/// Smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
+/// Computes the smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
 ///
 /// Parameters
 /// ----------
@@ -81,7 +81,7 @@ pub(super) fn min_eigenvalue_response<'py>(
     from_gray(image.py(), response?)
 }
 
-/// Corners of an image, strongest first, at whole pixels.
+/// Finds the corners of an image, strongest first, at integer pixels.
 ///
 /// Parameters
 /// ----------
@@ -90,8 +90,9 @@ pub(super) fn min_eigenvalue_response<'py>(
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : GoodFeaturesOptions
-///     Such as ``max_corners`` (0 for no limit), ``quality`` (share of the strongest response),
-///     ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows": 3}``.
+///     For example ``max_corners`` (0 for no limit), ``quality`` (relative to the strongest
+///     response), ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows":
+///     3}``.
 ///
 /// Returns
 /// -------
@@ -116,7 +117,7 @@ pub(super) fn good_features_to_track(
     Keypoints::give(image.py(), &corners)
 }
 
-/// Local maxima of a response, strongest first.
+/// Finds the local maxima of a response, strongest first.
 ///
 /// Parameters
 /// ----------
@@ -124,7 +125,7 @@ pub(super) fn good_features_to_track(
 /// radius : int
 ///     Pixels, >= 1: the window is ``2 * radius + 1`` wide.
 /// threshold : float
-///     Smaller responses are left out.
+///     Smaller responses are ignored.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -151,7 +152,7 @@ pub(super) fn non_maximum_suppression(
     Keypoints::give(response.py(), &peaks?)
 }
 
-/// Corners located between pixels: gradients around are perpendicular to the directions there.
+/// Refines corners to points whose directions to the window are perpendicular to its gradients.
 ///
 /// Parameters
 /// ----------
@@ -167,7 +168,7 @@ pub(super) fn non_maximum_suppression(
 /// Returns
 /// -------
 /// ndarray, shape (N, 2)
-///     Rows of NaN where the window holds no corner.
+///     Rows of NaN where the window contains no corner.
 ///
 /// Raises
 /// ------

@@ -1,7 +1,7 @@
 //! Features, and descriptors as arrays.
 //!
-//! Descriptors are arrays as OpenCV's: float32 of shape `(N, D)` for numbers, compared by Euclidean
-//! distance, or uint8 of shape `(N, 32)` for 256 bits, compared by Hamming distance.
+//! Descriptors are arrays as in OpenCV: float32 of shape `(N, D)`, compared by Euclidean distance,
+//! or uint8 of shape `(N, 32)` for 256 bits, compared by Hamming distance.
 
 use super::keypoints::{Keypoints, require_several};
 use crate::arrays::as_array;
@@ -14,16 +14,16 @@ use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// Number of bytes in a descriptor of bits.
+/// Number of bytes in a binary descriptor.
 const BYTES: usize = 32;
 
-/// Keypoints and their descriptors; row k of one belongs to row k of the other.
+/// Keypoints and their descriptors, in the same order.
 ///
 /// Parameters
 /// ----------
 /// keypoints : Keypoints
 /// descriptors : array_like, shape (N, D) or uint8 of shape (N, 32)
-///     Numbers, compared by Euclidean distance, or 256 bits, compared by Hamming distance.
+///     Floating-point numbers, compared by Euclidean distance, or 256 bits, by Hamming distance.
 ///
 /// Notes
 /// -----
@@ -32,7 +32,7 @@ const BYTES: usize = 32;
 pub(super) struct Features {
     /// Keypoints.
     keypoints: Py<Keypoints>,
-    /// Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits.
+    /// Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for binary ones.
     descriptors: Py<PyAny>,
 }
 
@@ -61,7 +61,7 @@ impl Features {
         self.keypoints.get().count(py)
     }
 
-    /// Part of the rows.
+    /// Selects rows.
     ///
     /// Parameters
     /// ----------
@@ -74,7 +74,7 @@ impl Features {
         Self::new(keypoints.cast_into()?, &descriptors)
     }
 
-    /// Places of the keypoints, (u, v) in pixels, shape (N, 2).
+    /// Positions of the keypoints, (u, v) in pixels, shape (N, 2).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         self.keypoints.bind(py).getattr("points")
@@ -102,7 +102,7 @@ pub(crate) fn descriptors(name: &str, value: &Bound<'_, PyAny>) -> PyResult<feat
     if dtype(&array)? != "uint8" {
         let (values, dimension) = table(name, &array)?;
         let is_byte = |&value: &f32| f32::from(value as u8) == value;
-        // Whole numbers, as of SIFT, are compared faster.
+        // Integers, as in SIFT, are compared faster.
         if values.iter().all(is_byte) {
             let bytes = values.iter().map(|&value| value as u8).collect();
             return feature::Descriptors::from_bytes(dimension, bytes).or_raise();
@@ -123,7 +123,7 @@ pub(crate) fn descriptors(name: &str, value: &Bound<'_, PyAny>) -> PyResult<feat
     Ok(feature::Descriptors::from_bits(bits))
 }
 
-/// Array of descriptors: float32 of shape `(N, D)`, or uint8 of shape `(N, 32)`.
+/// Creates an array of descriptors: float32 of shape `(N, D)`, or uint8 of shape `(N, 32)`.
 pub(crate) fn give_descriptors<'py>(
     py: Python<'py>,
     list: &feature::Descriptors,

@@ -9,12 +9,13 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Gray image in [0, 1] of a photo, as the detectors take it.
+/// Converts a photo to gray in [0, 1], as input for the detectors.
 ///
 /// Parameters
 /// ----------
 /// photo : array_like, shape (H, W, 3)
-///     uint8, red first. Images of `cv2.imread` are blue first: pass ``photo[..., ::-1]``.
+///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass ``photo[...,
+///     ::-1]``.
 ///
 /// Returns
 /// -------
@@ -26,7 +27,7 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
     from_gray(photo.py(), gray)
 }
 
-/// Features of an image, strongest first.
+/// Detects the features of an image, strongest first.
 ///
 /// Parameters
 /// ----------
@@ -36,12 +37,12 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
 ///     Called with the stage and the completed fraction.
 /// **options : FeatureOptions
 ///     ``kind``: ``"root_sift"`` (the default), ``"sift"``, ``"orb"`` or ``"harris"``;
-///     ``max_features=8192``, 0 for no limit; ``upright=False``; and others of each kind.
+///     ``max_features=8192``, 0 for no limit; ``upright=False``; and options of each kind.
 ///
 /// Returns
 /// -------
 /// Features
-///     Descriptors are float32, or bits in uint8 for ORB.
+///     Descriptors are float32, or uint8 (bits) for ORB.
 ///
 /// Raises
 /// ------
@@ -61,7 +62,7 @@ pub(super) fn detect_features(
     Features::give(image.py(), &features)
 }
 
-/// SIFT features of an image, strongest first.
+/// Detects the SIFT features of an image, strongest first.
 ///
 /// Parameters
 /// ----------
@@ -70,13 +71,13 @@ pub(super) fn detect_features(
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
-///     Such as ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
+///     For example ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
 ///     ``upright``, ``normalization="root"`` for RootSIFT.
 ///
 /// Returns
 /// -------
 /// Features
-///     Descriptors are float32 of shape (N, 128), whole numbers from 0 to 255.
+///     Descriptors are float32 of shape (N, 128), integers from 0 to 255.
 ///
 /// Raises
 /// ------
@@ -96,7 +97,7 @@ pub(super) fn detect_sift(
     Features::give(image.py(), &features)
 }
 
-/// ORB features of an image, strongest first.
+/// Detects the ORB features of an image, strongest first.
 ///
 /// Parameters
 /// ----------
@@ -105,7 +106,7 @@ pub(super) fn detect_sift(
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : OrbOptions
-///     Such as ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
+///     For example ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
 ///     values in [0, 1]), ``upright``.
 ///
 /// Returns
@@ -131,14 +132,14 @@ pub(super) fn detect_orb(
     Features::give(image.py(), &features)
 }
 
-/// SIFT descriptors at given places, scales and directions.
+/// Computes SIFT descriptors at given positions, scales and directions.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
-///     Points alone have a scale of 1 pixel and the direction 0.
+///     Points without scale and direction get a scale of 1 pixel and the direction 0.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
@@ -169,14 +170,14 @@ pub(super) fn describe_sift<'py>(
     give_descriptors(image.py(), &list?)
 }
 
-/// Dominant gradient directions around given places.
+/// Computes the dominant gradient directions around given positions.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray, uint8 or float in [0, 1].
 /// keypoints : Keypoints or array_like, shape (N, 2)
-///     Points alone have a scale of 1 pixel.
+///     Points without scale get a scale of 1 pixel.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SiftOptions
@@ -209,7 +210,7 @@ pub(super) fn sift_directions<'py>(
     Ok(found?.into_iter().map(give).collect())
 }
 
-/// Gray values in a square around each keypoint, less their mean, scaled to unit length.
+/// Computes zero-mean, unit-length patches of gray values around keypoints.
 ///
 /// Parameters
 /// ----------

@@ -9,20 +9,20 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Detected places of an image; row k of each array belongs to keypoint k.
+/// Detected positions in an image; row k of each array belongs to keypoint k.
 ///
 /// Parameters
 /// ----------
 /// points : array_like, shape (N, 2)
 ///     (u, v) in pixels, pixel centers at integers.
 /// scales_px : array_like, shape (N,), optional
-///     Standard deviation of the blur where it was found, pixels of the image. 1 if not given.
+///     Standard deviation of the blur at detection, pixels of the image. 1 by default.
 /// angles_rad : array_like, shape (N,), optional
-///     Direction, ``arctan2(v, u)`` with v down. 0 if not given.
+///     Direction, ``arctan2(v, u)`` with v down. 0 by default.
 /// responses : array_like, shape (N,), optional
-///     Response of the detector; larger is better. 0 if not given.
+///     Response of the detector; larger is better. 0 by default.
 /// octaves : array_like of int, shape (N,), optional
-///     Octave or level of the pyramid. 0 if not given.
+///     Octave or level of the pyramid. 0 by default.
 ///
 /// Notes
 /// -----
@@ -31,7 +31,7 @@ use pyo3::prelude::*;
 pub(crate) struct Keypoints {
     /// (u, v) in pixels, shape (N, 2).
     points: Py<PyArray2<f64>>,
-    /// Standard deviation of the blur, pixels of the image, float32 of shape (N,).
+    /// Standard deviation of the blur at detection, pixels of the image, float32 of shape (N,).
     scales_px: Py<PyArray1<f32>>,
     /// Direction, radians, float32 of shape (N,).
     angles_rad: Py<PyArray1<f32>>,
@@ -79,7 +79,7 @@ impl Keypoints {
         self.points.bind(py).shape()[0]
     }
 
-    /// Part of the rows.
+    /// Selects rows.
     ///
     /// Parameters
     /// ----------
@@ -99,7 +99,7 @@ impl Keypoints {
 }
 
 impl Keypoints {
-    /// Python object of a list.
+    /// Converts a list to a Python object.
     pub(crate) fn give(py: Python<'_>, keypoints: &[Keypoint]) -> PyResult<Self> {
         let points: Vec<_> = keypoints.iter().map(|k| k.point().coords).collect();
         let floats = |of: fn(&Keypoint) -> f32| {
@@ -115,7 +115,7 @@ impl Keypoints {
         })
     }
 
-    /// Number of keypoints.
+    /// Returns the number of keypoints.
     pub(super) fn count(&self, py: Python<'_>) -> usize {
         self.__len__(py)
     }
@@ -151,7 +151,7 @@ pub(crate) fn keypoints(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Ke
     Ok(points.iter().map(|p| Keypoint::at(p.x, p.y, 0.0)).collect())
 }
 
-/// Refuses the index of a single row.
+/// Rejects the index of a single row.
 ///
 /// # Errors
 /// `TypeError`.
@@ -180,7 +180,7 @@ fn optional(
 
 fn integers(name: &str, value: &Bound<'_, PyAny>, count: usize) -> PyResult<Vec<i32>> {
     let array = as_array(name, value, "(N,)")?;
-    // An empty list is an array of floats.
+    // An empty list becomes an array of floats.
     if array.ndim() != 1 || (!matches!(kind(&array), 'i' | 'u') && !array.is_empty()) {
         return Err(PyTypeError::new_err(format!(
             "{name} must be an array of integers of shape (N,)"

@@ -16,10 +16,11 @@ record! {
     "epipole.feature" Matches {
         /// Rows of the first and the second list, int64 of shape (M, 2).
         indices: Py<PyArray2<i64>>,
-        /// Distance of the descriptors: Euclidean, or the number of bits that differ, float32 of
-        /// shape (M,).
+        /// Distance between the descriptors: Euclidean, or the number of bits that differ, float32
+        /// of shape (M,).
         distances: Py<PyArray1<f32>>,
-        /// Distance over that of the second nearest, in [0, 1], float32 of shape (M,).
+        /// Ratio of the distances to the nearest and second nearest descriptor, float32 of shape
+        /// (M,).
         ratios: Py<PyArray1<f32>>,
     }
 }
@@ -32,13 +33,13 @@ impl Matches {
 }
 
 record! {
-    /// The two nearest descriptors of each descriptor.
+    /// The two nearest descriptors for each descriptor.
     "epipole.feature" Neighbors {
-        /// Row of the nearest, int64 of shape (N,).
+        /// Row of the nearest descriptor, int64 of shape (N,).
         indices: Py<PyArray1<i64>>,
-        /// Distance of the nearest, float32 of shape (N,).
+        /// Distance to the nearest descriptor, float32 of shape (N,).
         distances: Py<PyArray1<f32>>,
-        /// Distance of the second nearest, float32 of shape (N,); infinity if there is none.
+        /// Distance to the second nearest, float32 of shape (N,); infinity if there is none.
         second_distances: Py<PyArray1<f32>>,
     }
 }
@@ -50,12 +51,12 @@ impl Neighbors {
     }
 }
 
-/// Matches between two lists of descriptors, in the order of the first.
+/// Matches two lists of descriptors, in the order of the first.
 ///
 /// Parameters
 /// ----------
 /// descriptors1, descriptors2 : Features or array_like
-///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32), such as OpenCV's.
+///     Floats of shape (N, D), or bits in uint8 of shape (N, 32), as in OpenCV.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : MatchOptions
@@ -106,12 +107,12 @@ pub(super) fn match_descriptors(
     })
 }
 
-/// The two nearest descriptors in the second list, for each in the first, without approximation.
+/// Finds the two nearest descriptors in the second list for each in the first, exactly.
 ///
 /// Parameters
 /// ----------
 /// descriptors1, descriptors2 : Features or array_like
-///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32).
+///     Floats of shape (N, D), or bits in uint8 of shape (N, 32).
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -147,14 +148,14 @@ pub(super) fn nearest_two(
     })
 }
 
-/// Descriptors of a list nearest to one descriptor, nearest first.
+/// Finds the descriptors in a list that are nearest to one descriptor, nearest first.
 ///
 /// Parameters
 /// ----------
 /// query : array_like, shape (D,)
 /// list : Features or array_like
-///     Numbers of shape (N, D), or bits in uint8 of shape (N, 32), which count as D = 256 numbers
-///     0 and 1, the lowest bit first.
+///     Floats of shape (N, D), or bits in uint8 of shape (N, 32), which count as D = 256 numbers 0
+///     and 1, lowest bit first.
 /// count : int
 ///     Maximum number of entries.
 ///

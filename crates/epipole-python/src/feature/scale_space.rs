@@ -12,17 +12,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 record! {
-    /// Layers of a scale space with samples at the same places.
+    /// Layers of a scale space with the same sampling.
     "epipole.feature" ScaleOctave {
         /// Binary logarithm of the pixels per sample.
         octave: i32,
         /// Pixels of the image per sample.
         step_px: f64,
-        /// Place of the first sample, pixels of the image, shape (2,).
+        /// Position of the first sample, pixels of the image, shape (2,).
         origin: Py<PyArray1<f64>>,
         /// Blurred images, float32 of shape (L, h, w).
         blurred: Py<PyArray3<f32>>,
-        /// Standard deviation of each one's blur, pixels of the image, shape (L,).
+        /// Standard deviation of the blur of each image, pixels of the image, shape (L,).
         sigmas_px: Py<PyArray1<f64>>,
         /// Each blurred image minus the previous one, float32 of shape (L - 1, h, w).
         differences: Py<PyArray3<f32>>,
@@ -53,7 +53,7 @@ impl ScaleOctave {
     }
 }
 
-/// Array of shape `(L, h, w)`.
+/// Stacks images into an array of shape `(L, h, w)`.
 fn stack<'py>(py: Python<'py>, images: &[GrayImage32]) -> PyResult<Bound<'py, PyArray3<f32>>> {
     let (width, height) = images.first().map_or((0, 0), GrayImage32::dimensions);
     let values: Vec<f32> = images
@@ -70,7 +70,7 @@ fn layers(name: &str, stack: &Bound<'_, PyArray3<f32>>) -> PyResult<Vec<GrayImag
         .collect()
 }
 
-/// Image at growing blurs, and the differences of neighboring blurs.
+/// Image at increasing blur, and the differences between neighboring blurs.
 ///
 /// Parameters
 /// ----------
@@ -96,7 +96,7 @@ impl ScaleSpace {
         })
     }
 
-    /// Octaves, each with half as many samples along an axis as the previous one.
+    /// Octaves, each with half as many samples per axis as the previous one.
     #[getter]
     fn octaves(&self, py: Python<'_>) -> Vec<Py<ScaleOctave>> {
         self.octaves
@@ -105,7 +105,7 @@ impl ScaleSpace {
             .collect()
     }
 
-    /// Responses of the differences at a pixel.
+    /// Returns the responses of the differences at a pixel.
     ///
     /// Parameters
     /// ----------
@@ -115,7 +115,7 @@ impl ScaleSpace {
     /// Returns
     /// -------
     /// ndarray, shape (K, 2)
-    ///     The blur in pixels and the difference, by growing blur.
+    ///     Blur in pixels and difference, by increasing blur.
     fn answers<'py>(&self, py: Python<'py>, u: f64, v: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let answers = self.core.answers(u, v).into_iter();
         let rows: Vec<_> = answers
@@ -125,7 +125,7 @@ impl ScaleSpace {
     }
 }
 
-/// Scale space of an image.
+/// Computes the scale space of an image.
 ///
 /// Parameters
 /// ----------
@@ -139,7 +139,7 @@ impl ScaleSpace {
 /// Returns
 /// -------
 /// ScaleSpace
-///     Without octaves for an image smaller than about a dozen pixels.
+///     No octaves for an image smaller than about a dozen pixels.
 ///
 /// Raises
 /// ------

@@ -24,7 +24,7 @@ record! {
 
 #[pymethods]
 impl StructureTensor {
-    /// Eigenvalues at a pixel, the larger first; None outside the image.
+    /// Returns the eigenvalues at a pixel, the larger first; None outside the image.
     ///
     /// Parameters
     /// ----------
@@ -36,7 +36,7 @@ impl StructureTensor {
             .and_then(|pixel| pixel.eigenvalues(0, 0)))
     }
 
-    /// Tensor at a pixel; None outside the image.
+    /// Returns the tensor at a pixel; None outside the image.
     ///
     /// Parameters
     /// ----------
@@ -49,7 +49,7 @@ impl StructureTensor {
 }
 
 impl StructureTensor {
-    /// Tensor of one pixel alone.
+    /// Returns the tensor of a single pixel.
     fn pixel(&self, py: Python<'_>, u: u32, v: u32) -> PyResult<Option<feature::StructureTensor>> {
         let (u, v) = (u as usize, v as usize);
         let at = |name: &str, array: &Py<PyArray2<f32>>| {
@@ -71,7 +71,7 @@ impl StructureTensor {
     }
 }
 
-/// Structure tensor of an image.
+/// Computes the structure tensor of an image.
 ///
 /// Parameters
 /// ----------

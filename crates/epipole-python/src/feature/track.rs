@@ -12,17 +12,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 record! {
-    /// Points that were tracked from one image to the next; row k belongs to point k.
+    /// Points tracked from one image to the next; row k belongs to point k.
     "epipole.feature" Tracks {
         /// Positions in the second image, pixels, shape (N, 2); NaN for lost points.
         points: Py<PyArray2<f64>>,
         /// Whether each point was tracked, boolean array of shape (N,).
         found: Py<PyArray1<bool>>,
-        /// Mean absolute difference of gray values between the two windows, float32 of shape
-        /// (N,); NaN for lost points.
+        /// Mean absolute difference of gray values between the two windows, float32 of shape (N,);
+        /// NaN for lost points.
         residuals: Py<PyArray1<f32>>,
-        /// Distance between each point and itself tracked back, pixels, shape (N,); NaN for lost
-        /// points, and without that check.
+        /// Distance between each point and its position after tracking back, pixels, shape (N,);
+        /// NaN for lost points, and without that check.
         forward_backward_px: Py<PyArray1<f64>>,
     }
 }
@@ -34,7 +34,7 @@ impl Tracks {
     }
 }
 
-/// Points tracked from one image to the next (Lucas and Kanade, on a pyramid).
+/// Tracks points from one image to the next (Lucas and Kanade, on a pyramid).
 ///
 /// Parameters
 /// ----------

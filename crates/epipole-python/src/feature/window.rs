@@ -45,7 +45,7 @@ impl WindowTensor {
 
 #[pymethods]
 impl WindowTensor {
-    /// Tensor of the gradients (Iu, Iv) of a window's pixels.
+    /// Computes the tensor from the gradients (Iu, Iv) of a window's pixels.
     ///
     /// Parameters
     /// ----------
@@ -56,7 +56,7 @@ impl WindowTensor {
         Ok(feature::WindowTensor::from_gradients(&gradients).into())
     }
 
-    /// Tensor at one pixel of an image, as `structure_tensor` has it there.
+    /// Computes the tensor at one pixel of an image, equal to that of `structure_tensor`.
     ///
     /// Parameters
     /// ----------
@@ -84,27 +84,27 @@ impl WindowTensor {
         Ok(tensor.into())
     }
 
-    /// Product of the eigenvalues.
+    /// Returns the product of the eigenvalues.
     fn determinant(&self) -> f64 {
         self.core().determinant()
     }
 
-    /// Sum of the eigenvalues.
+    /// Returns the sum of the eigenvalues.
     fn trace(&self) -> f64 {
         self.core().trace()
     }
 
-    /// Eigenvalues, the larger first.
+    /// Returns the eigenvalues, the larger first.
     fn eigenvalues(&self) -> (f64, f64) {
         self.core().eigenvalues()
     }
 
-    /// Direction of the larger eigenvalue's eigenvector, ``arctan2(v, u)`` with v down, radians.
+    /// Returns the direction of the larger eigenvalue, ``arctan2(v, u)`` with v down, radians.
     fn direction_rad(&self) -> f64 {
         self.core().direction_rad()
     }
 
-    /// Harris response ``det M - k * trace(M)**2``.
+    /// Returns the Harris response ``det M - k * trace(M)**2``.
     ///
     /// Parameters
     /// ----------
@@ -114,7 +114,7 @@ impl WindowTensor {
         self.core().harris(k)
     }
 
-    /// Approximate squared change of the window under a small shift.
+    /// Approximates the squared change of the window under a small shift.
     ///
     /// Parameters
     /// ----------
@@ -126,7 +126,7 @@ impl WindowTensor {
 }
 
 record! {
-    /// Change of a window under every shift by whole pixels up to a reach.
+    /// Squared change of a window under integer shifts up to a maximum.
     "epipole.feature" ShiftSurface {
         /// Squared change under the shift (du, dv) at ``[reach + dv, reach + du]``, shape
         /// (2 * reach + 1, 2 * reach + 1).
@@ -136,13 +136,13 @@ record! {
 
 #[pymethods]
 impl ShiftSurface {
-    /// Largest shift to each side, pixels.
+    /// Maximum shift to each side, pixels.
     #[getter]
     fn reach(&self, py: Python<'_>) -> usize {
         self.values.bind(py).shape()[0] / 2
     }
 
-    /// Squared change under the shift by `du` columns and `dv` rows; None beyond the reach.
+    /// Returns the squared change for a shift (`du`, `dv`); None beyond the reach.
     ///
     /// Parameters
     /// ----------
@@ -155,18 +155,18 @@ impl ShiftSurface {
     }
 }
 
-/// Squared change of a window of an image under shifts.
+/// Computes the squared change of a window of an image under shifts.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 values are divided by 255.
 /// center : tuple of int
-///     Column and row of the window's middle.
+///     Column and row of the window's center.
 /// half_window : int
 ///     The window is ``2 * half_window + 1`` pixels wide; at most 127.
 /// reach : int
-///     Largest shift to each side, pixels, at most 127.
+///     Maximum shift to each side, pixels, at most 127.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 ///
