@@ -377,7 +377,7 @@ pub(super) fn fundamental_from_essential<'py>(
     from_matrix(essential.py(), &f)
 }
 
-/// Computes the essential matrix nearest to ``K2.T @ F @ K1``, with unit norm.
+/// Computes the essential matrix ``K2.T @ F @ K1``, with unit norm.
 ///
 /// Parameters
 /// ----------

@@ -84,7 +84,7 @@ impl RelativePose {
         from_vector(py, &self.0.direction)
     }
 
-    /// E, shape (3, 3).
+    /// Returns E, shape (3, 3).
     fn essential<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.essential())
     }
