@@ -7,7 +7,7 @@ use epipole::camera;
 use epipole::nalgebra::{Point2, Point3};
 use pyo3::prelude::*;
 
-/// Calibrated camera of any lens.
+/// Calibrated camera with any lens.
 ///
 /// Parameters
 /// ----------
@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 ///     Image size, pixels.
 /// intrinsics : Intrinsics
 /// lens : Lens, optional
-///     Without distortion if not given.
+///     No distortion by default.
 #[pyclass(frozen, from_py_object, module = "epipole.camera")]
 #[derive(Clone)]
 pub(crate) struct Camera(pub(crate) camera::Camera);
@@ -41,7 +41,7 @@ impl Camera {
         })
     }
 
-    /// Camera without distortion.
+    /// Creates a camera without distortion.
     ///
     /// Parameters
     /// ----------
@@ -77,12 +77,12 @@ impl Camera {
         self.0.lens.into()
     }
 
-    /// Whether the camera is without distortion.
+    /// Whether the camera has no distortion.
     fn is_pinhole(&self) -> bool {
         self.0.is_pinhole()
     }
 
-    /// Pixels of points in the camera frame.
+    /// Projects points in the camera frame to pixels.
     ///
     /// Parameters
     /// ----------
@@ -102,7 +102,7 @@ impl Camera {
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
     }
 
-    /// Unit rays through pixels, in the camera frame.
+    /// Computes the unit rays through pixels, in the camera frame.
     ///
     /// Parameters
     /// ----------
@@ -122,7 +122,7 @@ impl Camera {
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), unproject)
     }
 
-    /// Undistorted pixels: those of a camera with the same K and no distortion.
+    /// Undistorts pixels, to those of a camera with the same K and no distortion.
     ///
     /// Parameters
     /// ----------

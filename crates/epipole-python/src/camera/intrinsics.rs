@@ -43,7 +43,7 @@ impl Intrinsics {
         ))
     }
 
-    /// Intrinsics with square pixels and the principal point in the middle of the image.
+    /// Creates intrinsics with square pixels and the principal point at the image center.
     ///
     /// Parameters
     /// ----------
@@ -63,7 +63,7 @@ impl Intrinsics {
         ))
     }
 
-    /// Intrinsics of a matrix K without skew.
+    /// Creates intrinsics from a matrix K without skew.
     ///
     /// Parameters
     /// ----------
@@ -85,7 +85,7 @@ impl Intrinsics {
         Self::new(fu, fv, cu, cv)
     }
 
-    /// Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+    /// Creates intrinsics from COLMAP's fx, fy, cx, cy, with pixel centers at half-integers.
     ///
     /// Parameters
     /// ----------
@@ -103,7 +103,7 @@ impl Intrinsics {
         ))
     }
 
-    /// COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+    /// Returns COLMAP's parameters fx, fy, cx, cy, with pixel centers at half-integers.
     fn to_colmap(&self) -> (f64, f64, f64, f64) {
         self.0.to_colmap().into()
     }
@@ -132,22 +132,22 @@ impl Intrinsics {
         self.0.principal_point().y
     }
 
-    /// Principal point, pixels, shape (2,).
+    /// Returns the principal point, pixels, shape (2,).
     fn principal_point<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         from_vector(py, &self.0.principal_point().coords)
     }
 
-    /// K, shape (3, 3).
+    /// Returns K, shape (3, 3).
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.matrix())
     }
 
-    /// Inverse of K, shape (3, 3).
+    /// Returns the inverse of K, shape (3, 3).
     fn inverse_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.inverse_matrix())
     }
 
-    /// Pixels of points in the camera frame.
+    /// Projects points in the camera frame to pixels.
     ///
     /// Parameters
     /// ----------
@@ -167,7 +167,7 @@ impl Intrinsics {
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
     }
 
-    /// Rays through pixels, in the camera frame, with z = 1.
+    /// Computes the rays through pixels, in the camera frame, with z = 1.
     ///
     /// Parameters
     /// ----------
@@ -181,12 +181,12 @@ impl Intrinsics {
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), ray)
     }
 
-    /// Intrinsics after the image is resized by a factor; 0.5 halves both sides.
+    /// Returns the intrinsics for an image resized by a factor; 0.5 halves both sides.
     ///
     /// Parameters
     /// ----------
     /// factor : float
-    ///     Scale of the image, > 0.
+    ///     Scale factor of the image, > 0.
     ///
     /// Raises
     /// ------
@@ -196,7 +196,7 @@ impl Intrinsics {
         Ok(Self(self.0.scaled(factor).or_raise()?))
     }
 
-    /// Intrinsics with both focal lengths multiplied by a factor.
+    /// Returns the intrinsics with both focal lengths multiplied by a factor.
     ///
     /// Parameters
     /// ----------
@@ -211,12 +211,12 @@ impl Intrinsics {
         Ok(Self(self.0.zoomed(factor).or_raise()?))
     }
 
-    /// Intrinsics after the image is resized from one (width, height) to another, pixels.
+    /// Returns the intrinsics for an image resized from one (width, height) to another, pixels.
     ///
     /// Parameters
     /// ----------
     /// old, new : tuple of int
-    ///     Width and height before and after, pixels.
+    ///     Width and height before and after resizing, pixels.
     ///
     /// Raises
     /// ------
@@ -227,13 +227,13 @@ impl Intrinsics {
         Ok(Self(self.0.resized(old, new).or_raise()?))
     }
 
-    /// Intrinsics after the image is turned clockwise by quarter turns.
+    /// Returns the intrinsics for an image rotated clockwise by quarter turns.
     ///
     /// Parameters
     /// ----------
     /// quarters : int
     /// size : tuple of int
-    ///     Width and height before the turn, pixels.
+    ///     Width and height before the rotation, pixels.
     fn turned(&self, quarters: u8, size: (u32, u32)) -> Self {
         Self(self.0.turned(quarters, size))
     }

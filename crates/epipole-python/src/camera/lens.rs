@@ -14,9 +14,9 @@ use pyo3::prelude::*;
 /// Parameters
 /// ----------
 /// kind : {"brown", "rational", "fisheye", "division"}
-///     Model, those of OpenCV but for the last.
+///     Model; all but the last are OpenCV's.
 /// coefficients : sequence of float
-///     5, 8, 4 or 1 numbers, in OpenCV's order. Zeros if not given.
+///     5, 8, 4 or 1 numbers, in OpenCV's order. Zeros by default.
 ///
 /// Raises
 /// ------
@@ -61,12 +61,12 @@ impl Lens {
         self.0.coefficients()
     }
 
-    /// Whether the lens is without distortion.
+    /// Whether the lens has no distortion.
     fn is_none(&self) -> bool {
         self.0.is_none()
     }
 
-    /// Distorted image points, for a focal length of 1.
+    /// Projects points to distorted image points, for a focal length of 1.
     ///
     /// Parameters
     /// ----------
@@ -86,7 +86,7 @@ impl Lens {
         Batch::<3>::read("x_in_cam", x_in_cam)?.vectors(x_in_cam.py(), project)
     }
 
-    /// Rays of distorted image points, for a focal length of 1.
+    /// Computes the rays of distorted image points, for a focal length of 1.
     ///
     /// Parameters
     /// ----------
@@ -105,7 +105,7 @@ impl Lens {
         Batch::<2>::read("seen", seen)?.vectors(seen.py(), ray)
     }
 
-    /// Lens after the image is turned clockwise by quarter turns.
+    /// Returns the lens for an image rotated clockwise by quarter turns.
     ///
     /// Parameters
     /// ----------

@@ -19,7 +19,7 @@ use epipole::nalgebra::{Point2, Point3};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-/// Cross-product matrix: `cross_matrix(t) @ x == np.cross(t, x)`.
+/// Returns the cross-product matrix: `cross_matrix(t) @ x == np.cross(t, x)`.
 ///
 /// Parameters
 /// ----------
@@ -33,7 +33,7 @@ fn cross_matrix<'py>(t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>
     from_matrix(t.py(), &camera::cross_matrix(&vector("t", t)?))
 }
 
-/// Motion from the frame of camera 1 to that of camera 2.
+/// Computes the motion from the frame of camera 1 to that of camera 2.
 ///
 /// Parameters
 /// ----------
@@ -51,14 +51,14 @@ fn relative_motion(
     camera::relative_motion(&cam1_from_world.0, &cam2_from_world.0).into()
 }
 
-/// Pose of an upright camera that looks at a point.
+/// Computes the pose of an upright camera that looks at a point.
 ///
 /// Parameters
 /// ----------
 /// center_in_world, target_in_world : array_like, shape (3,)
-///     Center of the camera and the point it looks at.
+///     Center of the camera, and the point at which it looks.
 /// up_in_world : array_like, shape (3,)
-///     Direction that is up in the image.
+///     Up direction in the image.
 ///
 /// Returns
 /// -------
@@ -81,7 +81,7 @@ fn look_at(
     Ok(camera::look_at(&center, &target, &up).or_raise()?.into())
 }
 
-/// Pixels in COLMAP's convention, with pixel centers at halves.
+/// Converts pixels to COLMAP's convention, with pixel centers at half-integers.
 ///
 /// Parameters
 /// ----------
@@ -96,7 +96,7 @@ fn pixel_to_colmap<'py>(pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>
     Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), to_colmap)
 }
 
-/// Pixels from COLMAP's convention, with pixel centers at halves.
+/// Converts pixels from COLMAP's convention, with pixel centers at half-integers.
 ///
 /// Parameters
 /// ----------

@@ -8,7 +8,7 @@ use epipole::nalgebra::{Point2, Point3};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Camera in the world.
+/// Camera with a pose in the world.
 ///
 /// Parameters
 /// ----------
@@ -49,17 +49,17 @@ impl PosedCamera {
         self.0.cam_from_world.into()
     }
 
-    /// Center of the camera in the world, shape (3,).
+    /// Returns the center of the camera in the world, shape (3,).
     fn center_in_world<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         from_vector(py, &self.0.center_in_world().coords)
     }
 
-    /// ``P = K [R t]``, shape (3, 4), for undistorted pixels.
+    /// Returns ``P = K [R t]``, shape (3, 4), for undistorted pixels.
     fn projection_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.projection_matrix())
     }
 
-    /// Pixels of points in the world.
+    /// Projects points in the world to pixels.
     ///
     /// Parameters
     /// ----------
@@ -79,7 +79,7 @@ impl PosedCamera {
         Batch::<3>::read("x_in_world", x_in_world)?.vectors(x_in_world.py(), project)
     }
 
-    /// Directions of the rays through undistorted pixels, in the world, with a depth of 1.
+    /// Computes the rays through undistorted pixels, in the world, with a depth of 1.
     ///
     /// Parameters
     /// ----------

@@ -9,10 +9,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Deviation of `Rᵀ R` from the identity, and of |q|² from 1, that passes as rounding.
+/// Maximum deviation of `Rᵀ R` from the identity, and of |q|² from 1, that counts as rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// Deviation of |q|² from 1 below which a quaternion is kept to the last bit.
+/// Maximum deviation of |q|² from 1 at which a quaternion keeps its bits.
 const LAST_BITS: f64 = 1e-14;
 
 /// Rotation and translation: ``x_in_a = a_from_b @ x_in_b``.
@@ -20,9 +20,9 @@ const LAST_BITS: f64 = 1e-14;
 /// Parameters
 /// ----------
 /// rotation : array_like, shape (3, 3), optional
-///     Rotation matrix. The identity if not given.
+///     Rotation matrix. The identity by default.
 /// translation : array_like, shape (3,), optional
-///     Zero if not given.
+///     Zero by default.
 ///
 /// Raises
 /// ------
@@ -61,7 +61,7 @@ impl RigidTransform {
         Self::with_translation(rotation, translation)
     }
 
-    /// Transform of a quaternion (w, x, y, z), of length 1.
+    /// Creates a transform from a unit quaternion (w, x, y, z).
     ///
     /// Parameters
     /// ----------
@@ -114,24 +114,24 @@ impl RigidTransform {
         PyArray1::from_slice(py, &[q.w, q.i, q.j, q.k])
     }
 
-    /// Angle of the rotation, radians in [0, pi].
+    /// Rotation angle, radians in [0, pi].
     #[getter]
     fn angle_rad(&self) -> f64 {
         self.0.rotation.angle()
     }
 
-    /// Homogeneous matrix, shape (4, 4).
+    /// Returns the homogeneous matrix, shape (4, 4).
     fn matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let matrix: Matrix4<f64> = self.0.to_homogeneous();
         from_matrix(py, &matrix)
     }
 
-    /// The inverse transform: ``b_from_a``.
+    /// Returns the inverse transform: ``b_from_a``.
     fn inverse(&self) -> Self {
         self.0.inverse().into()
     }
 
-    /// Composition with a transform, or the image of points.
+    /// Composes two transforms, or transforms points.
     ///
     /// Parameters
     /// ----------
