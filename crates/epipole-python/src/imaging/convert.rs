@@ -7,7 +7,7 @@ use epipole::imaging;
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-/// 8-bit gray image as floats in [0, 1]: ``image / 255``; floats stay as they are.
+/// Converts an 8-bit gray image to floats in [0, 1], ``image / 255``; floats do not change.
 ///
 /// Parameters
 /// ----------
@@ -21,7 +21,7 @@ pub(super) fn gray_to_f32<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py,
     from_gray(image.py(), gray("image", image)?)
 }
 
-/// Gray image of floats in [0, 1] as 8 bits, rounded and clamped.
+/// Converts a gray image of floats in [0, 1] to 8 bits, rounded and clamped.
 ///
 /// Parameters
 /// ----------
@@ -35,12 +35,13 @@ pub(super) fn gray_to_u8<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py, 
     from_gray(image.py(), imaging::gray_to_u8(&gray("image", image)?))
 }
 
-/// Gray image of a color image by the weights of ITU-R BT.601, equal to OpenCV's.
+/// Converts a color image to gray by the weights of ITU-R BT.601, as in OpenCV.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W, 3)
-///     uint8, red first. Images of `cv2.imread` are blue first: pass ``image[..., ::-1]``.
+///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass ``image[...,
+///     ::-1]``.
 ///
 /// Returns
 /// -------
@@ -52,14 +53,14 @@ pub(super) fn rgb_to_gray<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py,
     from_gray(image.py(), gray)
 }
 
-/// Gray image of a color image by any weights.
+/// Converts a color image to gray by any weights.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W, 3)
-///     uint8, red first.
+///     uint8, in the order red, green, blue.
 /// weights : array_like, shape (3,), optional
-///     Weights of red, green and blue; `BT601_WEIGHTS` if not given. A sum of 1 keeps white at 1.
+///     Weights of red, green and blue; `BT601_WEIGHTS` by default. A sum of 1 keeps white at 1.
 ///
 /// Returns
 /// -------

@@ -1,4 +1,4 @@
-//! Filters of small kernels.
+//! Filters with small kernels.
 
 use crate::errors::OrRaise;
 use crate::images::{Gray, column, field, from_gray};
@@ -7,14 +7,14 @@ use epipole::imaging;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Image correlated with a kernel, which is not flipped.
+/// Correlates an image with a kernel, which is not flipped.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 values are divided by 255.
 /// kernel : array_like, shape (K, L)
-///     Weights, with odd sides.
+///     Weights, with odd side lengths.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
@@ -45,14 +45,14 @@ pub(super) fn correlate<'py>(
     from_gray(image.py(), result?)
 }
 
-/// Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
+/// Correlates an image with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 values are divided by 255.
 /// kernel_u, kernel_v : array_like, shape (K,)
-///     Weights along the rows and along the columns, odd numbers of them.
+///     Weights along the rows and along the columns, an odd number each.
 /// border : str or dict, optional
 ///     ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 /// progress : callable, optional
@@ -84,7 +84,7 @@ pub(super) fn separable_filter<'py>(
     from_gray(image.py(), result?)
 }
 
-/// Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
+/// Computes the noise gain of a filter: standard deviation of its response to unit white noise.
 ///
 /// Parameters
 /// ----------
@@ -98,7 +98,7 @@ pub(super) fn noise_gain(weights: &Bound<'_, PyAny>) -> PyResult<f64> {
     Ok(imaging::noise_gain(&column("weights", weights)?))
 }
 
-/// Samples of a Gaussian that sum to one.
+/// Samples a Gaussian, with a sum of 1.
 ///
 /// Parameters
 /// ----------
@@ -130,7 +130,7 @@ pub(super) fn gaussian_kernel(
     Ok(PyArray1::from_vec(py, kernel))
 }
 
-/// Kernels of `gaussian_derivative`: a Gaussian and its derivative.
+/// Returns the kernels of `gaussian_derivative`: a Gaussian and its derivative.
 ///
 /// Parameters
 /// ----------
@@ -140,7 +140,7 @@ pub(super) fn gaussian_kernel(
 /// Returns
 /// -------
 /// smooth, slope : ndarray of float32, shape (N,)
-///     ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+///     ``smooth`` sums to 1; ``slope`` has the response 1 to a ramp of slope 1.
 ///
 /// Raises
 /// ------
@@ -159,7 +159,7 @@ pub(super) fn gaussian_derivative_kernels(
     ))
 }
 
-/// Image blurred by a Gaussian, cut off at about 4 sigma.
+/// Blurs an image by a Gaussian, truncated at about 4 sigma.
 ///
 /// Parameters
 /// ----------
@@ -197,7 +197,7 @@ pub(super) fn gaussian_blur<'py>(
     gray.give(image.py(), blurred?)
 }
 
-/// Mean of the ``size x size`` window around each pixel.
+/// Computes the mean of the ``size x size`` window around each pixel.
 ///
 /// Parameters
 /// ----------

@@ -35,20 +35,20 @@ impl Gradient {
 
 #[pymethods]
 impl Gradient {
-    /// Steepest slope at each pixel, shape (H, W).
+    /// Returns the steepest slope at each pixel, shape (H, W).
     fn magnitude<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let gradient = self.core(py)?;
         from_gray(py, progress::detach(py, || gradient.magnitude()))
     }
 
-    /// Direction of steepest ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat.
+    /// Returns the direction of ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat.
     fn orientation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let gradient = self.core(py)?;
         from_gray(py, progress::detach(py, || gradient.orientation()))
     }
 }
 
-/// Gradient by a filter of small integers, not divided by its gain.
+/// Computes the gradient by an integer filter, not divided by its gain.
 ///
 /// Parameters
 /// ----------
@@ -81,7 +81,7 @@ pub(super) fn derivative(
     Gradient::give(image.py(), gradient)
 }
 
-/// Gradient by centered differences, slopes per pixel.
+/// Computes the gradient by central differences, as slopes per pixel.
 ///
 /// Parameters
 /// ----------
@@ -107,7 +107,7 @@ pub(super) fn centered_difference(
     Gradient::give(image.py(), gradient)
 }
 
-/// Gradient by the 3x3 Sobel filter, 8 times the slope per pixel.
+/// Computes the gradient by the 3x3 Sobel filter, 8 times the slope per pixel.
 ///
 /// Parameters
 /// ----------
@@ -131,7 +131,7 @@ pub(super) fn sobel(
     Gradient::give(image.py(), gradient)
 }
 
-/// Gradient of the image blurred by a Gaussian, slopes per pixel.
+/// Computes the gradient of the image blurred by a Gaussian, as slopes per pixel.
 ///
 /// Parameters
 /// ----------

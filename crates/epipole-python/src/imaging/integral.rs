@@ -25,7 +25,7 @@ impl IntegralImage {
         })))
     }
 
-    /// Sum over ``image[v0:v1, u0:u1]``.
+    /// Returns the sum over ``image[v0:v1, u0:u1]``.
     ///
     /// Parameters
     /// ----------
@@ -35,7 +35,7 @@ impl IntegralImage {
         self.0.sum(u0, v0, u1, v1)
     }
 
-    /// Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
+    /// Returns the mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
     ///
     /// Parameters
     /// ----------

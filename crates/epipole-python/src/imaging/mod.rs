@@ -18,7 +18,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         ("BT709_WEIGHTS", imaging::BT709_WEIGHTS),
     ];
     for (name, [red, green, blue]) in weights {
-        // Through the shortest decimals: 0.299, not 0.29899999499320984.
+        // Conversion via the shortest decimals gives 0.299, not 0.29899999499320984.
         let exact = [red, green, blue].map(|weight| weight.to_string().parse::<f64>());
         let [red, green, blue] = exact.map(|weight| weight.unwrap_or(f64::NAN));
         module.add(name, (red, green, blue))?;

@@ -1,4 +1,4 @@
-//! Pyramids of images.
+//! Image pyramids.
 
 use crate::images::{Gray, field, from_gray, gray, require_size};
 use crate::progress;
@@ -6,7 +6,7 @@ use epipole::imaging::{self, Border};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
-/// Image at half its size, blurred by the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
+/// Halves an image, after a blur with the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
 ///
 /// Parameters
 /// ----------
@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (ceil(H / 2), ceil(W / 2))
-///     uint8 for a uint8 image, else float32. Its pixel u lies at 2u of the image.
+///     uint8 for a uint8 image, else float32. Pixel u of the result is at 2u of the image.
 #[pyfunction]
 #[pyo3(signature = (image, border=None))]
 pub(super) fn pyramid_down<'py>(
@@ -31,14 +31,14 @@ pub(super) fn pyramid_down<'py>(
     gray.give(image.py(), half)
 }
 
-/// Image at twice its size, interpolated by the binomial kernel.
+/// Doubles an image, interpolated by the binomial kernel.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray.
 /// width, height : int
-///     Size of the result, pixels: each twice that of the image, or one less.
+///     Size of the result, pixels: twice the size of the image, or one less.
 ///
 /// Returns
 /// -------
@@ -63,14 +63,14 @@ pub(super) fn pyramid_up<'py>(
     gray.give(image.py(), double)
 }
 
-/// Image and its halves by `pyramid_down`, largest first.
+/// Downscales an image repeatedly by `pyramid_down`; the list starts with the image.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray.
 /// num_levels : int
-///     Maximum number of levels; the last is a single pixel at the latest.
+///     Maximum number of levels; a single pixel ends the pyramid.
 ///
 /// Returns
 /// -------
@@ -89,14 +89,14 @@ pub(super) fn gaussian_pyramid<'py>(
     levels.into_iter().map(give).collect()
 }
 
-/// Laplacian pyramid: differences of each Gaussian level and the next, and the smallest level.
+/// Computes the Laplacian pyramid: differences of successive Gaussian levels, and the last level.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W)
 ///     Gray; uint8 values are divided by 255.
 /// num_levels : int
-///     Maximum number of levels; the last is a single pixel at the latest.
+///     Maximum number of levels; a single pixel ends the pyramid.
 ///
 /// Returns
 /// -------
@@ -114,17 +114,17 @@ pub(super) fn laplacian_pyramid<'py>(
     levels.into_iter().map(give).collect()
 }
 
-/// Image of a Laplacian pyramid.
+/// Reconstructs the image of a Laplacian pyramid.
 ///
 /// Parameters
 /// ----------
 /// levels : list of array_like
-///     Those of `laplacian_pyramid`, possibly changed.
+///     Result of `laplacian_pyramid`, possibly modified.
 ///
 /// Returns
 /// -------
 /// ndarray of float32, shape (H, W)
-///     Shape (0, 0) without levels.
+///     Shape (0, 0) for no levels.
 #[pyfunction]
 pub(super) fn from_laplacian_pyramid<'py>(
     py: Python<'py>,
@@ -141,7 +141,7 @@ pub(super) fn from_laplacian_pyramid<'py>(
     )
 }
 
-/// Sharpness of a photo: mean square of its details of a few pixels.
+/// Measures the sharpness of a photo: mean square of its details of a few pixels.
 ///
 /// Parameters
 /// ----------

@@ -1,4 +1,4 @@
-//! Images at other sizes, and between pixels.
+//! Resizing and interpolation of images.
 
 use crate::arrays::Batch;
 use crate::errors::OrRaise;
@@ -10,7 +10,7 @@ use numpy::{PyArray3, PyUntypedArray};
 use pyo3::prelude::*;
 use pyo3::types::PySlice;
 
-/// Image at another size, without aliasing: means when it shrinks, linear when it grows.
+/// Resizes an image without aliasing: area averages to shrink, linear interpolation to enlarge.
 ///
 /// Parameters
 /// ----------
@@ -22,7 +22,7 @@ use pyo3::types::PySlice;
 /// Returns
 /// -------
 /// ndarray of uint8 or float32, shape (height, width)
-///     uint8 for a uint8 image, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+///     uint8 for a uint8 image, else float32. Pixel u is at ``(u + 0.5) * W / width - 0.5``.
 ///
 /// Raises
 /// ------
@@ -40,7 +40,7 @@ pub(super) fn resize<'py>(
     gray.give(image.py(), resized.or_raise()?)
 }
 
-/// Color image with at most `max_pixels` pixels, downscaled only if it has more.
+/// Downscales a color image to at most `max_pixels` pixels, if it has more.
 ///
 /// Parameters
 /// ----------
@@ -51,7 +51,7 @@ pub(super) fn resize<'py>(
 /// Returns
 /// -------
 /// ndarray of uint8, shape (h, w, 3)
-///     `Intrinsics.resized` gives its intrinsics.
+///     `Intrinsics.resized` returns the matching intrinsics.
 #[pyfunction]
 pub(super) fn reduce_rgb<'py>(
     image: &Bound<'py, PyAny>,
@@ -62,7 +62,7 @@ pub(super) fn reduce_rgb<'py>(
     from_rgb(image.py(), reduced)
 }
 
-/// Gray values between pixels by bilinear interpolation.
+/// Interpolates gray values between pixels bilinearly.
 ///
 /// Parameters
 /// ----------
@@ -86,7 +86,7 @@ pub(super) fn sample_bilinear<'py>(
     sample(image, pixel, border, imaging::sample_bilinear)
 }
 
-/// Gray values between pixels by bicubic interpolation (Catmull-Rom).
+/// Interpolates gray values between pixels by bicubic interpolation (Catmull-Rom).
 ///
 /// Parameters
 /// ----------
@@ -125,13 +125,13 @@ fn sample<'py>(
     pixels.numbers(image.py(), value)
 }
 
-/// Part of an image that is read at pixels within bounds, and its first pixel: reading all of it
-/// would take a thousand times as long as a sample. The whole image near its border.
+/// Returns the part of an image to read for pixels within bounds, and its first pixel: reading the
+/// whole image takes a thousand times as long as a sample. Near the border, the whole image.
 fn read_part<'py>(
     image: &Bound<'py, PyAny>,
     bounds: Option<[(f64, f64); 2]>,
 ) -> PyResult<(Bound<'py, PyAny>, [f64; 2])> {
-    /// Neighbors of a pixel that an interpolation reads, and one more.
+    /// Number of neighbors of a pixel that an interpolation reads, plus one.
     const MARGIN: f64 = 3.0;
     let (Ok(array), Some(bounds)) = (image.cast::<PyUntypedArray>(), bounds) else {
         return Ok((image.clone(), [0.0; 2]));

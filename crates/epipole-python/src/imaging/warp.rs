@@ -1,4 +1,4 @@
-//! Images seen through an affine map or a homography.
+//! Images warped by an affine map or a homography.
 
 use crate::arrays::matrix;
 use crate::images::{Image, require_size, same_kind};
@@ -8,17 +8,17 @@ use epipole::nalgebra::{Matrix2x3, Matrix3};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Image moved by an affine map, as OpenCV's `warpAffine`.
+/// Warps an image by an affine map, as OpenCV's `warpAffine`.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (2, 3)
-///     Pixels of the image to pixels of the result.
+///     Affine map from pixels of the image to pixels of the result.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : WarpOptions
-///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+///     ``width`` and ``height``, pixels, those of the image by default; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 ///
 /// Returns
@@ -53,17 +53,17 @@ pub(super) fn warp_affine<'py>(
     warped.give(py)
 }
 
-/// Image moved by a homography, as OpenCV's `warpPerspective`.
+/// Warps an image by a homography, as OpenCV's `warpPerspective`.
 ///
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W) or (H, W, 3)
 /// out_from_image : array_like, shape (3, 3)
-///     Pixels of the image to pixels of the result, up to scale.
+///     Homography from pixels of the image to pixels of the result, at any scale.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : WarpOptions
-///     ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+///     ``width`` and ``height``, pixels, those of the image by default; ``interpolation``,
 ///     ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 ///
 /// Returns
@@ -98,7 +98,7 @@ pub(super) fn warp_perspective<'py>(
     warped.give(py)
 }
 
-/// Options on top of a result of the image's size.
+/// Reads options, with the size of the image as the default size of the result.
 fn warp_options(image: &Image, options: Option<&Bound<'_, PyDict>>) -> PyResult<WarpOptions> {
     let (width, height) = match image {
         Image::Gray8(image) => image.dimensions(),
