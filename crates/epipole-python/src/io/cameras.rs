@@ -1,4 +1,4 @@
-//! Files of cameras.
+//! Camera files.
 
 use super::source::{Source, format_of, or_raise, write};
 use crate::arrays::from_rows;
@@ -9,7 +9,7 @@ use numpy::PyArray2;
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 
-/// Formats by their names in Python.
+/// Formats by their Python names.
 const FORMATS: [(&str, CameraFormat); 11] = [
     ("epipole", CameraFormat::Epipole),
     ("opencv", CameraFormat::OpenCv),
@@ -24,14 +24,14 @@ const FORMATS: [(&str, CameraFormat); 11] = [
     ("flat", CameraFormat::Flat),
 ];
 
-/// Camera and its name in a file.
+/// Camera with its name in a file.
 ///
 /// Parameters
 /// ----------
 /// name : str
 /// camera : Camera
 /// cam_from_world : RigidTransform, optional
-///     Pose, of a format that has one.
+///     Pose, for formats that have one.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]
 #[derive(Clone)]
 struct NamedCamera(camera::NamedCamera);
@@ -50,7 +50,7 @@ impl NamedCamera {
         })
     }
 
-    /// Name, number or image that the file gives; "camera", or "left" and "right", without one.
+    /// Name, number or image in the file; otherwise "camera", or "left" and "right".
     #[getter]
     fn name(&self) -> &str {
         &self.0.name
@@ -69,15 +69,15 @@ impl NamedCamera {
     }
 }
 
-/// Content of a file of cameras.
+/// Content of a camera file.
 ///
 /// Parameters
 /// ----------
 /// cameras : list of NamedCamera
 /// right_from_left : RigidTransform, optional
-///     Motion of a rig, from the first camera to the second, in the unit of the file.
+///     Motion of a rig from the first to the second camera, in the unit of the file.
 /// notes : list of str, optional
-///     Sentences on cameras of a file that are left out.
+///     Notes on cameras of the file that were skipped, as sentences.
 #[pyclass(frozen, module = "epipole.io")]
 struct Cameras(camera::Cameras);
 
@@ -99,7 +99,7 @@ impl Cameras {
         })
     }
 
-    /// Content with one camera.
+    /// Creates content with one camera.
     ///
     /// Parameters
     /// ----------
@@ -109,7 +109,7 @@ impl Cameras {
         Self(camera::Cameras::of(camera.0))
     }
 
-    /// Content with the two cameras of a rig.
+    /// Creates content with the two cameras of a rig.
     ///
     /// Parameters
     /// ----------
@@ -128,19 +128,19 @@ impl Cameras {
         self.0.cameras.iter().cloned().map(NamedCamera).collect()
     }
 
-    /// Motion of a rig, from the first camera to the second, or None.
+    /// Motion of a rig from the first to the second camera, or None.
     #[getter]
     fn right_from_left(&self) -> Option<RigidTransform> {
         self.0.right_from_left.map(RigidTransform::from)
     }
 
-    /// Sentences on cameras of the file that are left out, as there is no such lens, a list of str.
+    /// Notes on cameras skipped because their lens is not supported, a list of str.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.notes.clone()
     }
 
-    /// Camera of a name; `KeyError` without one.
+    /// Returns the camera with a name; `KeyError` if there is none.
     ///
     /// Parameters
     /// ----------
@@ -161,15 +161,15 @@ impl Cameras {
     }
 }
 
-/// Reads the cameras of a file; the format follows from its content.
+/// Reads the cameras of a file; the format is detected from its content.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
 ///     File of Epipole, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, Middlebury, COLMAP, nerfstudio,
-///     Metashape or MATLAB, or of plain numbers.
+///     Metashape or MATLAB, or plain numbers.
 /// size : tuple of int, optional
-///     Width and height of the images, pixels, for a file without them.
+///     Width and height of the images, pixels, for files that lack them.
 ///
 /// Returns
 /// -------
@@ -194,12 +194,12 @@ fn read_cameras(
     Ok((named.map_or("other", |(name, _)| name), Cameras(cameras)))
 }
 
-/// Reads Q of a rectified pair, from pixels with disparities to points.
+/// Reads Q of a rectified pair, which maps pixels with disparities to points.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
-///     File with the key ``Q`` of OpenCV or of ``epipole rectify --json``, or sixteen numbers row
+///     File with the key ``Q`` from OpenCV or ``epipole rectify --json``, or sixteen numbers, row
 ///     by row.
 ///
 /// Returns

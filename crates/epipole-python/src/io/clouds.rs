@@ -11,7 +11,7 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 
-/// Python object of a cloud, `epipole.stereo.PointCloud`.
+/// Converts a cloud to Python, as `epipole.stereo.PointCloud`.
 pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
     let rows: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
     let colors = match cloud.colors.is_empty() {
@@ -44,7 +44,7 @@ pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<B
 /// -------
 /// cloud : epipole.stereo.PointCloud
 /// notes : list of str
-///     Sentences on what was left out: points with NaN or infinity, faces of a mesh.
+///     Notes on skipped content, as sentences: points with NaN or infinity, faces of a mesh.
 ///
 /// Raises
 /// ------
@@ -76,7 +76,7 @@ fn write_ply(path: &Bound<'_, PyAny>, cloud: &Bound<'_, PyAny>) -> PyResult<()> 
     write(path, &cloud::write_ply(&take_cloud("cloud", cloud)?))
 }
 
-/// A cloud, or an array of points.
+/// Reads a cloud, or an array of points.
 pub(super) fn take_cloud(argument: &str, cloud: &Bound<'_, PyAny>) -> PyResult<PointCloud> {
     let (points, is_cloud) = match cloud.getattr_opt("points")? {
         Some(points) => (points, true),
@@ -147,7 +147,7 @@ fn read_pfm(source: &Bound<'_, PyAny>) -> PyResult<Py<PyArray2<f32>>> {
     disparities(source, epipole_io::disparity::read_pfm)
 }
 
-/// Writes disparities as a gray PFM file, the format of Middlebury.
+/// Writes disparities as a gray PFM file, the format of the Middlebury benchmark.
 ///
 /// Parameters
 /// ----------
@@ -165,7 +165,7 @@ fn write_pfm(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResult<
     write(path, &epipole_io::disparity::write_pfm(&disparity))
 }
 
-/// Writes disparities times 256 as a 16-bit PNG file, the format of KITTI.
+/// Writes disparities times 256 as a 16-bit PNG file, the format of the KITTI benchmark.
 ///
 /// Parameters
 /// ----------
@@ -188,7 +188,7 @@ fn write_png16(path: &Bound<'_, PyAny>, disparity: &Bound<'_, PyAny>) -> PyResul
 
 /// Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
 ///
-/// Landmarks that are points are vertices without a rotation; others are left out, with a warning.
+/// Point landmarks become vertices without a rotation; others are skipped, with a warning.
 ///
 /// Parameters
 /// ----------

@@ -19,12 +19,13 @@ fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> 
     )
 }
 
-/// Reads matches of two images: ``u1 v1 u2 v2`` a line, pixels.
+/// Reads matches of two images: ``u1 v1 u2 v2`` per line, pixels.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
-///     Numbers between commas, semicolons, tabs or spaces; a first line of names allows any order.
+///     Numbers separated by commas, semicolons, tabs or spaces, in any order if a header names
+///     them.
 ///
 /// Returns
 /// -------
@@ -45,7 +46,7 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
     Ok((pixels(py, &pixels1)?, pixels(py, &pixels2)?))
 }
 
-/// Reads points of an image: ``u v`` a line, pixels.
+/// Reads points of an image: ``u v`` per line, pixels.
 ///
 /// Parameters
 /// ----------
@@ -74,7 +75,7 @@ fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
     pixels(py, &source.done(matches::read_points(&source.bytes))?)
 }
 
-/// Reads points of the world with their pixels: ``x y z u v`` a line.
+/// Reads world points with their pixels: ``x y z u v`` per line.
 ///
 /// Parameters
 /// ----------
@@ -105,16 +106,15 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
     Ok((pixels(py, &found.0)?, from_rows(py, &rows)?))
 }
 
-/// Writes matches: ``u1 v1 u2 v2 distance ratio`` a line, or ``u1 v1 u2 v2`` without ``distances``
-/// and ``ratios``.
+/// Writes matches, one per line: ``u1 v1 u2 v2``, then distance and ratio if given.
 ///
 /// Parameters
 /// ----------
 /// path : str or os.PathLike
 /// pixels1, pixels2 : array_like, shape (N, 2)
 /// distances, ratios : array_like, shape (N,), optional
-///     Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the
-///     other is given.
+///     Distance between the descriptors, and its ratio to the distance of the second nearest
+///     descriptor. If only one of the two is given, the other is written as 0.
 /// layout : {"text", "csv"}, optional
 ///
 /// Raises

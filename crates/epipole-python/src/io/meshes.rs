@@ -1,4 +1,4 @@
-//! Files of meshes and their textures.
+//! Mesh files with textures.
 
 use super::clouds::take_cloud;
 use super::source::{or_raise, write};
@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-/// Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
+/// Writes a mesh as PLY, glTF or OBJ, depending on the extension of the file.
 ///
 /// Parameters
 /// ----------
@@ -19,8 +19,8 @@ use pyo3::types::PyString;
 ///     Ends in ``.ply``, ``.glb`` or ``.obj``.
 /// mesh : epipole.mvs.Mesh
 /// texture : epipole.mvs.MeshTexture, optional
-///     Instead of the colors of the vertices, for ``.glb`` and ``.obj``. The material and the image
-///     of an OBJ file are written beside it, with the extensions ``.mtl`` and ``.jpg``.
+///     Replaces the vertex colors, for ``.glb`` and ``.obj``. Material and image of an OBJ file are
+///     written to the same folder, with the extensions ``.mtl`` and ``.jpg``.
 ///
 /// Raises
 /// ------
@@ -75,10 +75,10 @@ fn write_mesh(
     write(path, &bytes)
 }
 
-/// A mesh whose triangles have vertices that exist.
+/// Reads a mesh and checks that its triangles refer to existing vertices.
 ///
 /// # Errors
-/// Another object, and a triangle of a vertex that does not exist.
+/// For other objects, and for a triangle with a missing vertex.
 pub(crate) fn take_mesh(mesh: &Bound<'_, PyAny>) -> PyResult<Mesh> {
     let vertices = take_cloud("mesh.vertices", &mesh.getattr("vertices")?)?;
     let triangles: Vec<[u32; 3]> = mesh
@@ -100,10 +100,10 @@ pub(crate) fn take_mesh(mesh: &Bound<'_, PyAny>) -> PyResult<Mesh> {
     })
 }
 
-/// The texture of a mesh with this number of triangles.
+/// Reads the texture of a mesh with this number of triangles.
 ///
 /// # Errors
-/// An image that is none, or another shape of corners.
+/// For an invalid image, or a wrong shape of the corners.
 fn take_texture(texture: &Bound<'_, PyAny>, num_triangles: usize) -> PyResult<MeshTexture> {
     let image = rgb("texture.image", &texture.getattr("image")?)?;
     let corners: Vec<[[f32; 2]; 3]> = (texture.getattr("corners")?)

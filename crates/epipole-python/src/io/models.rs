@@ -17,7 +17,7 @@ use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
 use std::path::Path;
 
-/// Formats by their names in Python.
+/// Formats by their Python names.
 const FORMATS: [ModelFormat; 8] = [
     ModelFormat::ColmapText,
     ModelFormat::ColmapBinary,
@@ -38,11 +38,11 @@ fn model_format(name: &str) -> PyResult<ModelFormat> {
 /// Parameters
 /// ----------
 /// id : int
-///     Number of the image in files that number them; no two are equal.
+///     Number of the image in files with numbered images; unique.
 /// name : str
-///     Name, mostly the path of its file within a folder of images.
+///     Name, usually the path of its file within a folder of images.
 /// camera : int
-///     Index of its camera.
+///     Index of the image's camera.
 /// cam_from_world : RigidTransform
 /// keypoints : array_like, shape (N, 2)
 ///     Pixels.
@@ -83,7 +83,7 @@ impl ModelImage {
         &self.0.name
     }
 
-    /// Index of its camera.
+    /// Index of the image's camera.
     #[getter]
     fn camera(&self) -> usize {
         self.0.camera
@@ -102,13 +102,13 @@ impl ModelImage {
         from_rows(py, &rows)
     }
 
-    /// Center of the camera in the world, shape (3,).
+    /// Returns the center of the camera in the world, shape (3,).
     fn center_in_world<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         from_vector(py, &self.0.center_in_world().coords)
     }
 }
 
-/// Cameras, the images that they took, and points of the scene.
+/// Cameras, their images, and points of the scene.
 ///
 /// Parameters
 /// ----------
@@ -116,17 +116,17 @@ impl ModelImage {
 /// images : list of ModelImage
 /// points : array_like, shape (P, 3)
 /// tracks : array_like of int, shape (K, 3)
-///     Observations: index of the point, of the image, and of its keypoint.
+///     Observations: indices of the point, of the image, and of the image's keypoint.
 /// colors : array_like of uint8, shape (P, 3), optional
-///     Red, green, blue. Gray if not given.
+///     Red, green, blue. Gray by default.
 /// errors_px : list of float or None, optional
 ///     Mean reprojection error of each point, pixels.
 /// camera_ids : list of int, optional
-///     Number of each camera in files that number them. Counted from 1 if not given.
+///     Number of each camera in files with numbered cameras. Counted from 1 by default.
 /// point_ids : list of int, optional
-///     The same of the points.
+///     Number of each point in files with numbered points. Counted from 1 by default.
 /// rigs : list of Rig, optional
-///     Cameras that are fixed to each other.
+///     Cameras mounted rigidly on each other.
 ///
 /// Raises
 /// ------
@@ -192,7 +192,7 @@ impl Model {
             cameras: cameras.into_iter().map(|camera| camera.0).collect(),
             images: images.into_iter().map(|image| image.0).collect(),
             points,
-            // Numbers that count from 1 are those of a model without any.
+            // Numbers counted from 1 are the default.
             camera_ids: camera_ids
                 .filter(|ids| !ids.iter().copied().eq(1..=num_cameras as u32))
                 .unwrap_or_default(),
@@ -204,7 +204,7 @@ impl Model {
         }))
     }
 
-    /// Model of a reconstruction; `images` are those that it was made from.
+    /// Creates the model of a reconstruction and its `images`.
     ///
     /// Parameters
     /// ----------
@@ -225,7 +225,7 @@ impl Model {
         )))
     }
 
-    /// Reconstruction and its images.
+    /// Returns the reconstruction and its images.
     ///
     /// Raises
     /// ------
@@ -261,7 +261,7 @@ impl Model {
         from_rows(py, &rows)
     }
 
-    /// Observations: index of the point, of the image, and of its keypoint, int64 of shape (K, 3).
+    /// Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint.
     #[getter]
     fn tracks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
         let rows = self.0.points.iter().enumerate().flat_map(|(index, point)| {
@@ -277,13 +277,13 @@ impl Model {
         give_colors(py, self.0.points.iter().map(|point| point.color))
     }
 
-    /// Mean reprojection error of each point, pixels; None if the file has none.
+    /// Mean reprojection error of each point, pixels; None if the file lacks it.
     #[getter]
     fn errors_px(&self) -> Vec<Option<f64>> {
         self.0.points.iter().map(|point| point.error_px).collect()
     }
 
-    /// Number of each camera in files that number them.
+    /// Number of each camera in files with numbered cameras.
     #[getter]
     fn camera_ids(&self) -> Vec<u32> {
         (0..self.0.cameras.len())
@@ -291,19 +291,19 @@ impl Model {
             .collect()
     }
 
-    /// Number of each point in files that number them.
+    /// Number of each point in files with numbered points.
     #[getter]
     fn point_ids(&self) -> Vec<u64> {
         self.0.points.iter().map(|point| point.id).collect()
     }
 
-    /// Cameras that are fixed to each other, a list of `Rig`.
+    /// Cameras mounted rigidly on each other, a list of `Rig`.
     #[getter]
     fn rigs(&self) -> Vec<Rig> {
         self.0.rigs.iter().cloned().map(Rig).collect()
     }
 
-    /// Points without observations.
+    /// Returns the points without their observations.
     ///
     /// Returns
     /// -------
@@ -312,12 +312,12 @@ impl Model {
         give_cloud(py, &self.0.cloud())
     }
 
-    /// Number of observations of all points.
+    /// Returns the number of observations of all points.
     fn num_observations(&self) -> usize {
         self.0.num_observations()
     }
 
-    /// Mean length of all reprojection errors, pixels; None without observations.
+    /// Computes the mean length of all reprojection errors, pixels; None without observations.
     ///
     /// Raises
     /// ------
@@ -327,7 +327,7 @@ impl Model {
         or_raise(self.0.mean_reprojection_px())
     }
 
-    /// Oddities of the model, such as points behind cameras, a sentence each.
+    /// Returns oddities of the model, such as points behind cameras, as sentences.
     ///
     /// Raises
     /// ------
@@ -337,12 +337,12 @@ impl Model {
         or_raise(self.0.oddities())
     }
 
-    /// Losses of a format, a sentence each.
+    /// Returns the information that a format loses, as sentences.
     ///
     /// Parameters
     /// ----------
     /// format : str
-    ///     Format of a file.
+    ///     File format.
     ///
     /// Raises
     /// ------
@@ -352,7 +352,7 @@ impl Model {
         Ok(model_format(format)?.losses(&self.0))
     }
 
-    /// Files of the model.
+    /// Returns the files of the model.
     ///
     /// Parameters
     /// ----------
@@ -363,7 +363,7 @@ impl Model {
     /// Returns
     /// -------
     /// dict
-    ///     Bytes of each file by its usual name.
+    ///     Content of each file by its usual name, as bytes.
     ///
     /// Raises
     /// ------
@@ -378,13 +378,13 @@ impl Model {
             .collect())
     }
 
-    /// Writes the files of the model into a folder, which is created if needed.
+    /// Writes the files of the model to a folder, which is created if needed.
     ///
     /// Parameters
     /// ----------
     /// folder : str or os.PathLike
     /// format : str
-    ///     As in `to_files`.
+    ///     Same as for `to_files`.
     ///
     /// Returns
     /// -------
@@ -420,13 +420,13 @@ impl Model {
 }
 
 record! {
-    /// Model that was read.
+    /// Model as read from files.
     "epipole.io" ReadModel {
         /// Format: "colmap-text", "colmap-binary", "bundler", "transforms", "openmvg" or "ply".
         format: String,
         /// Model.
         model: Model,
-        /// Sentences on what was left out or assumed.
+        /// Notes on skipped content and assumptions, as sentences.
         notes: Vec<String>,
     }
 }
@@ -477,7 +477,7 @@ fn read_model_folder(folder: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
     }
 }
 
-/// Reads a model of one file; files beside it are read if the format needs them.
+/// Reads a model from one file; related files are read if the format needs them.
 ///
 /// Parameters
 /// ----------

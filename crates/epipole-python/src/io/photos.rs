@@ -1,4 +1,4 @@
-//! Photos with the EXIF data in their files.
+//! Photos with EXIF data.
 
 use super::source::{Source, or_raise};
 use crate::calibration::Undistortion;
@@ -14,19 +14,19 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 record! {
-    /// Image and its file's data about the camera.
+    /// Image, with camera data from its file.
     "epipole.io" Decoded {
         /// Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1].
         image: Py<PyAny>,
-        /// First guess of the focal length from the EXIF data, pixels of this image, or None.
+        /// Initial guess of the focal length from the EXIF data, pixels of this image, or None.
         focal_px: Option<f64>,
         /// Focal length from the EXIF data, millimeters, or None.
         focal_mm: Option<f64>,
-        /// Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
+        /// Position of the camera, an `epipole.math.Geodetic`, or None without GPS data.
         place: Option<Geodetic>,
-        /// EXIF orientation of the file, 1 to 8, applied or not.
+        /// EXIF orientation of the file, 1 to 8, whether applied or not.
         orientation: u8,
-        /// Sample values that became black and white, if not those of the format.
+        /// Sample values that became black and white; None for those of the format.
         range: Option<[f64; 2]>,
     }
 }
@@ -61,23 +61,23 @@ fn decode_options(
         .with_range(pixel_range(range)?))
 }
 
-/// Color image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+/// Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a color image, with its EXIF data.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
 /// max_pixels : int, optional
-///     Larger images are refused. 64 million if not given.
+///     Larger images are rejected. 64 million by default.
 /// apply_orientation : bool, optional
-///     Whether to turn the image upright by its EXIF orientation.
+///     Whether to rotate the image upright by its EXIF orientation.
 /// range : str or tuple of float, optional
-///     ``"auto"`` or ``"full"``, or the values that become black and white.
-///     Sample values that become black and white: those in use, all of the format, or these.
+///     Sample values that become black and white: ``"auto"`` for those in use, ``"full"`` for all
+///     of the format, or a pair of values.
 ///
 /// Returns
 /// -------
 /// Decoded
-///     Its `image` is uint8 of shape (H, W, 3).
+///     `image` is uint8 of shape (H, W, 3).
 ///
 /// Raises
 /// ------
@@ -109,23 +109,23 @@ fn decode_rgb(
     })
 }
 
-/// Gray image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+/// Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a gray image, with its EXIF data.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
 /// max_pixels : int, optional
-///     Larger images are refused. 64 million if not given.
+///     Larger images are rejected. 64 million by default.
 /// apply_orientation : bool, optional
-///     Whether to turn the image upright by its EXIF orientation.
+///     Whether to rotate the image upright by its EXIF orientation.
 /// range : str or tuple of float, optional
-///     ``"auto"`` or ``"full"``, or the values that become black and white.
-///     Sample values that become black and white: those in use, all of the format, or these.
+///     Sample values that become black and white: ``"auto"`` for those in use, ``"full"`` for all
+///     of the format, or a pair of values.
 ///
 /// Returns
 /// -------
 /// Decoded
-///     Its `image` is float32 of shape (H, W), in [0, 1].
+///     `image` is float32 of shape (H, W), in [0, 1].
 ///
 /// Raises
 /// ------
@@ -157,7 +157,7 @@ fn decode_gray(
     })
 }
 
-/// Width and height of an image before its orientation is applied, from the header alone.
+/// Reads width and height of an image before its orientation is applied, from the header alone.
 ///
 /// Parameters
 /// ----------
@@ -179,7 +179,7 @@ fn sensor_size(source: &Bound<'_, PyAny>) -> PyResult<(u32, u32)> {
     source.done(photo::sensor_size(&source.bytes))
 }
 
-/// Photo that was turned upright, undistorted and downscaled.
+/// Photo after it was rotated upright, undistorted and downscaled.
 ///
 /// Parameters
 /// ----------
@@ -235,7 +235,7 @@ impl PreparedPhoto {
         from_rgb(py, self.0.image.clone())
     }
 
-    /// First guess of the focal length from the EXIF data, pixels of `image`, or None.
+    /// Initial guess of the focal length from the EXIF data, pixels of `image`, or None.
     #[getter]
     fn focal_px(&self) -> Option<f64> {
         self.0.focal_px
@@ -247,49 +247,49 @@ impl PreparedPhoto {
         self.0.focal_mm
     }
 
-    /// Position of the camera, `epipole.math.Geodetic`, or None.
+    /// Position of the camera, an `epipole.math.Geodetic`, or None.
     #[getter]
     fn place(&self) -> Option<Geodetic> {
         self.0.place.map(Geodetic)
     }
 
-    /// K, if the distortion of a known lens was removed, or None.
+    /// K if the distortion of a known lens was removed, else None.
     #[getter]
     fn intrinsics(&self) -> Option<Intrinsics> {
         self.0.intrinsics.map(Intrinsics::from)
     }
 
-    /// Width and height before it was reduced, upright.
+    /// Width and height before downscaling, upright.
     #[getter]
     fn full_size(&self) -> (u32, u32) {
         self.0.full_size
     }
 
-    /// Width and height before it was turned upright.
+    /// Width and height before the rotation.
     #[getter]
     fn sensor_size(&self) -> (u32, u32) {
         self.0.sensor_size
     }
 
-    /// Number of clockwise quarter turns that made it upright; None if it was mirrored.
+    /// Number of clockwise quarter turns to the upright image; None if it was mirrored.
     #[getter]
     fn quarters(&self) -> Option<u8> {
         self.0.quarters
     }
 
-    /// Sample values that became black and white, if not those of the format.
+    /// Sample values that became black and white; None for those of the format.
     #[getter]
     fn range(&self) -> Option<[f64; 2]> {
         self.0.range
     }
 
-    /// Whether the pixels are those of the file.
+    /// Whether the pixels are unchanged from the file.
     #[getter]
     fn is_as_stored(&self) -> bool {
         self.0.is_as_stored
     }
 
-    /// Focal length in pixels of `image`, from one in pixels before it was reduced.
+    /// Converts a focal length to pixels of `image`, from pixels before downscaling.
     ///
     /// Parameters
     /// ----------
@@ -299,19 +299,19 @@ impl PreparedPhoto {
         self.0.reduced_focal_px(focal_px)
     }
 
-    /// Camera of `image`; None for another size or a mirrored photo.
+    /// Returns the camera of `image`; None for another size or a mirrored photo.
     ///
     /// Parameters
     /// ----------
     /// camera : epipole.camera.Camera
-    ///     That of the sensor, or of the photo upright.
+    ///     Camera of the sensor, or of the upright photo.
     fn camera(&self, camera: &Camera) -> PyResult<Option<Camera>> {
         let camera = or_raise(self.0.camera(&camera.0))?;
         Ok(camera.map(Camera::from))
     }
 }
 
-/// Color image of a file, undistorted, turned upright and downscaled.
+/// Reads a color image, undistorts it, rotates it upright and downscales it.
 ///
 /// Parameters
 /// ----------
@@ -319,12 +319,11 @@ impl PreparedPhoto {
 /// max_pixels : int, optional
 ///     Maximum number of pixels of the result.
 /// max_file_pixels : int, optional
-///     Larger files are refused. 64 million if not given.
+///     Larger files are rejected. 64 million by default.
 /// range : str or tuple of float, optional
-///     ``"auto"`` or ``"full"``, or the values that become black and white.
-///     As in `decode_rgb`.
+///     Same as for `decode_rgb`.
 /// sensor_width_mm : float, optional
-///     Length of the longer side of the sensor, millimeters, for files that have the focal length
+///     Length of the longer side of the sensor, millimeters, for files that give the focal length
 ///     in millimeters only.
 /// undistortion : epipole.calibration.Undistortion, optional
 ///     Applied to images with the size of its camera.

@@ -5,14 +5,14 @@ use crate::sfm::wrapper::wrapper;
 use epipole_io::model::{self, RigCamera, RigFrame};
 use pyo3::prelude::*;
 
-/// Cameras that are fixed to each other, and the moments in which they took images.
+/// Cameras mounted rigidly on each other, and the frames that they took.
 ///
 /// Parameters
 /// ----------
 /// id : int
-///     Number of the rig in files that number them; no two are equal.
+///     Number of the rig in files with numbered rigs; unique.
 /// cameras : list of tuple
-///     Index of each camera and its ``cam_from_rig``, the identity of the first one.
+///     Index of each camera and its ``cam_from_rig``, which is the identity for the first one.
 /// frames : list of tuple
 ///     Number of each frame, its ``rig_from_world``, and the indices of its images.
 #[pyclass(frozen, from_py_object, module = "epipole.io")]

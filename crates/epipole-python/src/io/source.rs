@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::{Path, PathBuf};
 
-/// Content of a file, with its path if there is one.
+/// Content of a file, with its path, if any.
 pub(super) struct Source {
     /// Path as given.
     path: Option<PathBuf>,
@@ -33,7 +33,7 @@ impl Source {
         })
     }
 
-    /// Content as text.
+    /// Returns the content as text.
     ///
     /// # Errors
     /// `ValueError` for bytes that are not UTF-8.
@@ -41,7 +41,7 @@ impl Source {
         std::str::from_utf8(&self.bytes).map_err(|_| self.error("the file is not text"))
     }
 
-    /// Result of a reader, with the path in front of an error.
+    /// Returns the result of a reader, with the path at the start of an error.
     ///
     /// # Errors
     /// `ValueError`.
@@ -71,7 +71,7 @@ pub(super) fn path(value: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
     })
 }
 
-/// `OSError` of the errno's subclass, such as `FileNotFoundError`.
+/// Returns the `OSError` subclass of the errno, such as `FileNotFoundError`.
 pub(super) fn os_error(error: &std::io::Error, path: &Path) -> PyErr {
     match error.raw_os_error() {
         Some(code) => {
@@ -97,7 +97,7 @@ pub(super) fn write(target: &Bound<'_, PyAny>, bytes: &[u8]) -> PyResult<()> {
     written.map_err(|error| os_error(&error, &path))
 }
 
-/// Result of a writer.
+/// Returns the result of a writer.
 ///
 /// # Errors
 /// `ValueError`.
@@ -105,10 +105,10 @@ pub(super) fn or_raise<T>(result: Result<T, Error>) -> PyResult<T> {
     result.map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// Finds a format by its name in Python.
+/// Finds a format by its Python name.
 ///
 /// # Errors
-/// `ValueError` with the choices.
+/// `ValueError` that lists the choices.
 pub(super) fn format_of<F: Copy>(all: &[(&str, F)], given: &str) -> PyResult<F> {
     let found = all.iter().find(|(name, _)| *name == given);
     found.map(|&(_, format)| format).ok_or_else(|| {

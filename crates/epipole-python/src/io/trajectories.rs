@@ -1,4 +1,4 @@
-//! Files of trajectories.
+//! Trajectory files.
 
 use super::source::{Source, format_of, or_raise, write};
 use crate::camera::RigidTransform;
@@ -7,7 +7,7 @@ use epipole_io::trajectory::{self, TrajectoryFormat};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-/// Formats by their names in Python.
+/// Formats by their Python names.
 const FORMATS: [(&str, TrajectoryFormat); 3] = [
     ("tum", TrajectoryFormat::Tum),
     ("kitti", TrajectoryFormat::Kitti),
@@ -20,9 +20,9 @@ const FORMATS: [(&str, TrajectoryFormat); 3] = [
 /// ----------
 /// world_from_cam : list of RigidTransform
 /// stamps_ns : array_like of int, shape (N,), optional
-///     Time of each pose, nanoseconds, not descending.
+///     Time of each pose, nanoseconds, not decreasing.
 /// notes : list of str, optional
-///     Sentences on what a reader assumed.
+///     Assumptions of a reader, as sentences.
 #[pyclass(frozen, module = "epipole.io")]
 struct Trajectory(trajectory::Trajectory);
 
@@ -62,7 +62,7 @@ impl Trajectory {
         Some(PyArray1::from_slice(py, stamps))
     }
 
-    /// Sentences on what a reader assumed, a list of str.
+    /// Assumptions of a reader, as sentences, a list of str.
     #[getter]
     fn notes(&self) -> Vec<String> {
         self.0.notes.clone()
@@ -73,12 +73,12 @@ impl Trajectory {
     }
 }
 
-/// Reads a trajectory; the format follows from its content.
+/// Reads a trajectory; the format is detected from its content.
 ///
 /// Parameters
 /// ----------
 /// source : str, os.PathLike or bytes
-///     File of TUM, KITTI or EuRoC.
+///     TUM, KITTI or EuRoC file.
 ///
 /// Returns
 /// -------
@@ -107,7 +107,7 @@ fn read_trajectory(source: &Bound<'_, PyAny>) -> PyResult<(&'static str, Traject
 /// path : str or os.PathLike
 /// trajectory : Trajectory
 /// format : {"tum", "kitti", "euroc"}, optional
-///     "kitti" has no times, the others need them.
+///     "kitti" has no times, the other formats require them.
 ///
 /// Raises
 /// ------
