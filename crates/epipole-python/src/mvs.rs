@@ -16,19 +16,19 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use view::MvsView;
 
-/// Undistorts and downscales photos, and chooses the neighbors and the depth range of each.
+/// Undistorts and downscales photos, and chooses neighbors and a depth range for each.
 ///
-/// Photos that share no points with another under a sufficient angle are left out.
+/// Photos without common points with another one at a sufficient angle are skipped.
 ///
 /// Parameters
 /// ----------
 /// reconstruction : epipole.sfm.Reconstruction
 /// photos : list of array_like
-///     uint8 of shape (H, W, 3), one for each image of the reconstruction, of its camera's size.
+///     uint8 of shape (H, W, 3), one per image of the reconstruction, with its camera's size.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : MvsOptions
-///     ``max_size_px``, ``num_neighbors`` and ``min_angle_deg`` matter here.
+///     Relevant here are ``max_size_px``, ``num_neighbors`` and ``min_angle_deg``.
 ///
 /// Returns
 /// -------
@@ -65,7 +65,7 @@ fn prepare_views(
     Ok(views.into_iter().map(MvsView).collect())
 }
 
-/// Finds the depth and normal of each pixel of each view by PatchMatch.
+/// Estimates depth and normal of each pixel of each view by PatchMatch.
 ///
 /// A depth is kept if enough views agree on it.
 ///
@@ -102,7 +102,7 @@ fn estimate_depth_maps(
     Ok(maps.into_iter().map(DepthMap).collect())
 }
 
-/// Joins depth maps to one cloud with normals, colors and confidences.
+/// Fuses depth maps to a point cloud with normals, colors and confidences.
 ///
 /// Parameters
 /// ----------

@@ -1,4 +1,4 @@
-//! Depths and normals of pixels.
+//! Depth maps.
 
 use crate::arrays::points3;
 use crate::images::{disparity, from_gray, gray8};
@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 /// normals : array_like, shape (H, W, 3)
 ///     Unit normals in the camera's frame, towards the camera; zero where unknown.
 /// num_views : array_like of uint8, shape (H, W)
-///     Number of photos that agree on the depth, this one among them; 0 where unknown.
+///     Number of photos that agree on the depth, including this one; 0 where unknown.
 ///
 /// Examples
 /// --------
@@ -71,14 +71,14 @@ impl DepthMap {
         PyArray1::from_iter(py, values).reshape([height as usize, width as usize, 3])
     }
 
-    /// Number of photos that agree on the depth, uint8 of shape (H, W).
+    /// Number of photos that agree on the depth, including this one, uint8 of shape (H, W).
     #[getter]
     fn num_views<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
         let (width, height) = self.0.depth.dimensions();
         PyArray1::from_slice(py, &self.0.num_views).reshape([height as usize, width as usize])
     }
 
-    /// Share of pixels with a depth.
+    /// Fraction of pixels with a depth.
     #[getter]
     fn density(&self) -> f64 {
         self.0.density()

@@ -1,4 +1,4 @@
-//! Meshes of depth maps.
+//! Meshes from depth maps.
 
 use super::depth_map::DepthMap;
 use super::view::MvsView;
@@ -12,19 +12,19 @@ use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Surface of triangles.
+/// Triangle mesh.
 ///
 /// Parameters
 /// ----------
 /// vertices : epipole.stereo.PointCloud
 ///     Points with normals and colors.
 /// triangles : ndarray of uint32, shape (M, 3)
-///     Indices of the vertices, counterclockwise seen from outside.
+///     Indices of the vertices, counterclockwise when viewed from outside.
 #[pyclass(frozen, get_all, module = "epipole.mvs")]
 pub(super) struct Mesh {
     /// Vertices.
     vertices: Py<PointCloud>,
-    /// Indices of the vertices, uint32 of shape (M, 3), counterclockwise seen from outside.
+    /// Indices of the vertices, uint32 of shape (M, 3), counterclockwise when viewed from outside.
     triangles: Py<PyArray2<u32>>,
 }
 
@@ -45,9 +45,9 @@ impl Mesh {
     }
 }
 
-/// Joins depth maps to a mesh with normals and colors.
+/// Fuses depth maps to a mesh with normals and colors.
 ///
-/// The surface has holes where no photo sees it.
+/// The surface has holes where no photo shows it.
 ///
 /// Parameters
 /// ----------

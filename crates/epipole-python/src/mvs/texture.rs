@@ -12,19 +12,19 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 record! {
-    /// Texture of a mesh: an image, and a pixel of it for each corner of each triangle.
+    /// Texture of a mesh: an image, with a pixel position for each corner of each triangle.
     "epipole.mvs" MeshTexture {
         /// Red, green and blue, uint8 of shape (H, W, 3).
         image: Py<PyArray3<u8>>,
-        /// Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2).
+        /// Pixel of each corner of each triangle, centers at integers, float32 of shape (M, 3, 2).
         corners: Py<PyArray3<f32>>,
     }
 }
 
 /// Textures a mesh with the photos.
 ///
-/// Each triangle takes the photo that shows it largest, with few seams, and colors are adjusted to
-/// agree along seams.
+/// Each triangle is textured from the photo that shows it at the largest size, with few seams;
+/// colors are adjusted to agree along seams.
 ///
 /// Parameters
 /// ----------

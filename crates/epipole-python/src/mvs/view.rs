@@ -7,20 +7,20 @@ use epipole::mvs;
 use numpy::PyArray3;
 use pyo3::prelude::*;
 
-/// Photo without distortion, its neighbors and its range of depths.
+/// Undistorted photo with its neighbors and depth range.
 ///
 /// Parameters
 /// ----------
 /// photo : int
-///     Index of its image in the reconstruction.
+///     Index of the image in the reconstruction.
 /// camera : PosedCamera
-///     Without distortion, of the size of the image.
+///     Camera without distortion, with the size of the image.
 /// image : array_like of uint8, shape (H, W, 3)
 ///     Red, green, blue.
 /// neighbors : list of int
-///     Indices of the views that it is compared with, best first.
+///     Indices of the views to compare with, best first.
 /// depth_range : tuple of float
-///     Smallest and largest depth that is looked for.
+///     Minimum and maximum depth to search.
 #[pyclass(frozen, from_py_object, module = "epipole.mvs")]
 #[derive(Clone)]
 pub(super) struct MvsView(pub(super) mvs::MvsView);
@@ -46,7 +46,7 @@ impl MvsView {
         }))
     }
 
-    /// Index of its image in the reconstruction.
+    /// Index of the image in the reconstruction.
     #[getter]
     fn photo(&self) -> usize {
         self.0.photo
@@ -58,19 +58,19 @@ impl MvsView {
         self.0.camera.into()
     }
 
-    /// Pixels without distortion, uint8 of shape (H, W, 3).
+    /// Undistorted pixels, uint8 of shape (H, W, 3).
     #[getter]
     fn image<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
         from_rgb(py, self.0.image.clone())
     }
 
-    /// Indices of the views that it is compared with, best first.
+    /// Indices of the views to compare with, best first.
     #[getter]
     fn neighbors(&self) -> Vec<usize> {
         self.0.neighbors.clone()
     }
 
-    /// Smallest and largest depth that is looked for.
+    /// Minimum and maximum depth to search.
     #[getter]
     fn depth_range(&self) -> (f64, f64) {
         self.0.depth_range.into()
