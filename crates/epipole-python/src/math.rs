@@ -1,4 +1,4 @@
-//! Lines, places on the earth, singular values, seeded random numbers.
+//! Lines, positions on the earth, singular values, seeded random numbers.
 
 use crate::arrays::{as_array, from_matrix, from_vector, matrix, vector};
 use crate::errors::OrRaise;
@@ -13,16 +13,16 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Place on the earth (WGS 84).
+/// Position on the earth (WGS 84).
 ///
 /// Parameters
 /// ----------
 /// latitude_deg : float
-///     North of the equator, degrees, -90 to 90.
+///     Latitude north of the equator, degrees, -90 to 90.
 /// longitude_deg : float
-///     East of Greenwich, degrees, -180 to 180.
+///     Longitude east of Greenwich, degrees, -180 to 180.
 /// height_m : float
-///     Above the ellipsoid, meters.
+///     Height above the ellipsoid, meters.
 #[pyclass(frozen, from_py_object, module = "epipole.math")]
 #[derive(Clone)]
 pub(crate) struct Geodetic(pub(crate) math::Geodetic);
@@ -40,26 +40,26 @@ impl Geodetic {
         })
     }
 
-    /// North of the equator, degrees.
+    /// Latitude north of the equator, degrees.
     #[getter]
     fn latitude_deg(&self) -> f64 {
         self.0.latitude_deg
     }
 
-    /// East of Greenwich, degrees.
+    /// Longitude east of Greenwich, degrees.
     #[getter]
     fn longitude_deg(&self) -> f64 {
         self.0.longitude_deg
     }
 
-    /// Above the ellipsoid, meters.
+    /// Height above the ellipsoid, meters.
     #[getter]
     fn height_m(&self) -> f64 {
         self.0.height_m
     }
 }
 
-/// East, north and up of a place relative to another.
+/// Converts a position to east, north and up relative to an origin.
 ///
 /// Parameters
 /// ----------
@@ -89,7 +89,7 @@ fn local_from_geodetic<'py>(
 /// Parameters
 /// ----------
 /// line : array_like, shape (3,)
-///     Homogeneous line, of any scale.
+///     Homogeneous line, at any scale.
 ///
 /// Raises
 /// ------
@@ -105,7 +105,7 @@ impl Line2 {
     #[new]
     fn new(line: &Bound<'_, PyAny>) -> PyResult<Self> {
         let line: Vector3<f64> = vector("line", line)?;
-        // Keeps the bits of a line that has the scale.
+        // Keep the bits of a line that already has this scale.
         if (line.x * line.x + line.y * line.y - 1.0).abs() < 1e-15 {
             let (a, b, c) = (line.x, line.y, line.z);
             return Ok(Self(math::Line2 { a, b, c }));
@@ -113,12 +113,12 @@ impl Line2 {
         Ok(Self(math::Line2::from_homogeneous(&line).or_raise()?))
     }
 
-    /// Line of a homogeneous vector.
+    /// Creates the line of a homogeneous vector.
     ///
     /// Parameters
     /// ----------
     /// line : array_like, shape (3,)
-    ///     Of any scale.
+    ///     At any scale.
     ///
     /// Raises
     /// ------
@@ -129,7 +129,7 @@ impl Line2 {
         Self::new(line)
     }
 
-    /// Line through two points.
+    /// Creates the line through two points.
     ///
     /// Parameters
     /// ----------
@@ -151,30 +151,30 @@ impl Line2 {
         self.homogeneous(py)
     }
 
-    /// The normal's component along u.
+    /// Component of the normal along u.
     #[getter]
     fn a(&self) -> f64 {
         self.0.a
     }
 
-    /// The normal's component along v.
+    /// Component of the normal along v.
     #[getter]
     fn b(&self) -> f64 {
         self.0.b
     }
 
-    /// Minus the signed distance of the origin along the normal.
+    /// Negated signed distance of the origin along the normal.
     #[getter]
     fn c(&self) -> f64 {
         self.0.c
     }
 
-    /// (a, b, c), shape (3,).
+    /// Returns (a, b, c), shape (3,).
     fn homogeneous<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         from_vector(py, &self.0.homogeneous())
     }
 
-    /// Signed distance of a point.
+    /// Returns the signed distance of a point.
     ///
     /// Parameters
     /// ----------
@@ -184,7 +184,7 @@ impl Line2 {
         Ok(self.0.signed_distance(&point))
     }
 
-    /// Point of the line nearest to a point.
+    /// Returns the point of the line nearest to a point.
     ///
     /// Parameters
     /// ----------
@@ -198,7 +198,7 @@ impl Line2 {
         Ok(from_vector(point.py(), &self.0.nearest(&place).coords))
     }
 
-    /// Angle of the line against u, radians.
+    /// Returns the angle of the line to the u axis, radians.
     fn angle_rad(&self) -> f64 {
         self.0.angle_rad()
     }
@@ -207,16 +207,16 @@ impl Line2 {
 record! {
     /// Singular value decomposition: ``A = u @ diag(singular_values) @ v.T``.
     "epipole.math" Svd3 {
-        /// Left singular vectors in its columns, shape (3, 3).
+        /// Left singular vectors as columns, shape (3, 3).
         u: Py<PyArray2<f64>>,
-        /// Largest first, none negative, shape (3,).
+        /// Singular values, largest first, none negative, shape (3,).
         singular_values: Py<PyArray1<f64>>,
-        /// Right singular vectors in its columns, shape (3, 3).
+        /// Right singular vectors as columns, shape (3, 3).
         v: Py<PyArray2<f64>>,
     }
 }
 
-/// Singular value decomposition of a matrix.
+/// Computes the singular value decomposition of a matrix.
 ///
 /// Parameters
 /// ----------
@@ -236,7 +236,7 @@ fn svd3(matrix: &Bound<'_, PyAny>) -> PyResult<Svd3> {
     })
 }
 
-/// Length of a vector.
+/// Computes the length of a vector.
 ///
 /// Parameters
 /// ----------
@@ -284,12 +284,12 @@ impl Random {
         Self(Mutex::new(math::random::Random::new(seed)))
     }
 
-    /// Integer below a bound, which is > 0.
+    /// Returns an integer below a bound.
     ///
     /// Parameters
     /// ----------
     /// bound : int
-    ///     Upper end, > 0.
+    ///     Upper bound, > 0, exclusive.
     ///
     /// Raises
     /// ------
@@ -302,22 +302,22 @@ impl Random {
         Ok(self.stream().below(bound))
     }
 
-    /// Number in [0, 1).
+    /// Returns a number in [0, 1).
     fn unit(&self) -> f64 {
         self.stream().unit()
     }
 
-    /// Number in [low, high).
+    /// Returns a number in [low, high).
     ///
     /// Parameters
     /// ----------
     /// low, high : float
-    ///     Ends of the interval.
+    ///     Bounds of the interval.
     fn uniform(&self, low: f64, high: f64) -> f64 {
         self.stream().uniform(low, high)
     }
 
-    /// Number of the standard normal distribution.
+    /// Returns a number from the standard normal distribution.
     fn normal(&self) -> f64 {
         self.stream().normal()
     }

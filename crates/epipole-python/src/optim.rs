@@ -16,34 +16,34 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex};
 
 record! {
-    /// One tried step.
+    /// One attempted step.
     "epipole.optim" Iteration {
-        /// Counted from 1; 0 is the start.
+        /// Index from 1; 0 is the initial state.
         index: usize,
         /// Best cost so far.
         cost: f64,
         /// Damping of this step.
         damping: f64,
-        /// Whether the step lowered the cost and was kept.
+        /// Whether the step reduced the cost and was accepted.
         accepted: bool,
     }
 }
 
 record! {
-    /// Outcome of a minimization.
+    /// Report of a minimization.
     "epipole.optim" LmReport {
-        /// Cost of the starting parameters.
+        /// Cost of the initial parameters.
         initial_cost: f64,
-        /// Cost of the parameters returned.
+        /// Cost of the final parameters.
         final_cost: f64,
-        /// Steps tried.
+        /// Number of steps tried.
         iterations: usize,
-        /// Steps kept.
+        /// Number of steps accepted.
         accepted: usize,
-        /// Why the loop ended: "small_gradient", "small_step", "small_cost_change",
+        /// Reason the loop ended: "small_gradient", "small_step", "small_cost_change",
         /// "max_iterations" or "stuck".
         termination: String,
-        /// The start and every step tried, a list of `Iteration`.
+        /// Initial state and every step tried, a list of `Iteration`.
         history: Vec<Py<Iteration>>,
     }
 }
@@ -57,7 +57,7 @@ impl LmReport {
 }
 
 impl LmReport {
-    /// Python object of a report.
+    /// Converts a report to a Python object.
     pub(crate) fn give(py: Python<'_>, report: optim::LmReport) -> PyResult<Self> {
         let history = report.history.iter().map(|step| Iteration {
             index: step.index,
@@ -78,7 +78,7 @@ impl LmReport {
     }
 }
 
-/// Name of the reason.
+/// Returns the name of the reason.
 pub(crate) fn termination(termination: Termination) -> String {
     let name = match termination {
         Termination::SmallGradient => "small_gradient",
@@ -105,7 +105,7 @@ struct Callables {
 }
 
 impl Callables {
-    /// Calls one of them and reads `count` numbers; NaN after an exception.
+    /// Calls a function and reads `count` numbers; NaN after an exception.
     fn call(
         &self,
         callable: &Py<PyAny>,
@@ -134,7 +134,7 @@ impl Callables {
     }
 }
 
-/// Reads an array of a shape; NaN is allowed, as the loop avoids it.
+/// Reads an array of a shape; NaN is allowed, since the loop rejects it.
 fn floats(name: &str, value: &Bound<'_, PyAny>, shape: &[usize]) -> PyResult<Vec<f64>> {
     let expected = match *shape {
         [rows] => format!("({rows},)"),
@@ -189,7 +189,7 @@ impl Monitor for Guard<'_> {
     }
 }
 
-/// Parameters with the least sum of squared residuals, by Levenberg-Marquardt and QR.
+/// Minimizes the sum of squared residuals by Levenberg-Marquardt with QR.
 ///
 /// Parameters
 /// ----------
@@ -198,12 +198,12 @@ impl Monitor for Guard<'_> {
 /// jacobian : callable
 ///     Jacobian of shape (M, N) at parameters of shape (N,).
 /// parameters : array_like, shape (N,)
-///     Start.
+///     Initial parameters.
 /// loss : str or dict, optional
-///     Loss of each residual: ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``,
+///     Loss of each residual: ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and
 ///     ``"truncated"`` likewise.
 /// held : list of bool, optional
-///     Parameters that stay fixed; missing entries are free.
+///     Parameters held fixed; missing entries are free.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : LmOptions
@@ -272,7 +272,7 @@ fn minimize_dense<'py>(
     Ok((parameters, LmReport::give(py, report?)?))
 }
 
-/// Largest difference between a Jacobian and central differences.
+/// Computes the maximum difference between a Jacobian and central differences.
 ///
 /// Parameters
 /// ----------
@@ -280,12 +280,13 @@ fn minimize_dense<'py>(
 /// residuals : callable
 ///     Residuals of shape (M,) after a step of shape (N,).
 /// step : float, optional
-///     Length of the differences.
+///     Step size of the differences.
 ///
 /// Returns
 /// -------
 /// float
-///     Each entry relative to the larger of 1 and its size; infinity for other shapes and NaN.
+///     Each difference is relative to the entry's magnitude or 1, whichever is larger; infinity for
+///     other shapes and NaN.
 ///
 /// Raises
 /// ------

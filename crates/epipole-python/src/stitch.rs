@@ -13,20 +13,20 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Two photos that overlap, and the matches that agree.
+/// Two overlapping photos and their inliers.
 ///
 /// Parameters
 /// ----------
 /// images : tuple of int
 ///     Indices of the photos.
 /// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches that agree.
+///     Inlier matches.
 /// homography : array_like, shape (3, 3)
-///     From the first photo to the second, up to scale.
+///     From the first photo to the second, at any scale.
 /// num_matches : int
-///     Number of matches, with those that do not agree.
+///     Number of matches, including outliers.
 /// has_parallax : bool
-///     Whether no homography fits all matches, since the camera moved.
+///     Whether the matches show parallax: the camera moved, and no homography fits all of them.
 #[pyclass(frozen, from_py_object, module = "epipole.stitch")]
 #[derive(Clone)]
 struct Overlap(stitch::Overlap);
@@ -61,13 +61,13 @@ impl Overlap {
         self.0.images.into()
     }
 
-    /// Pixels of the matches that agree in the first photo, shape (N, 2).
+    /// Pixels of the inliers in the first photo, shape (N, 2).
     #[getter]
     fn pixels1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.pixels(py, 0)
     }
 
-    /// Pixels of the matches that agree in the second photo, shape (N, 2).
+    /// Pixels of the inliers in the second photo, shape (N, 2).
     #[getter]
     fn pixels2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         self.pixels(py, 1)
@@ -79,13 +79,13 @@ impl Overlap {
         from_matrix(py, &self.0.homography)
     }
 
-    /// Number of matches, with those that do not agree.
+    /// Number of matches, including outliers.
     #[getter]
     fn num_matches(&self) -> usize {
         self.0.num_matches
     }
 
-    /// Whether the matches show depth: the camera moved.
+    /// Whether the matches show parallax, because the camera moved.
     #[getter]
     fn has_parallax(&self) -> bool {
         self.0.has_parallax
@@ -107,13 +107,13 @@ impl Overlap {
 /// Parameters
 /// ----------
 /// pixel_from_direction : list of array_like or None
-///     For each photo M, shape (3, 3), which maps a direction to a homogeneous pixel.
+///     Matrix M of each photo, shape (3, 3), which maps a direction to a homogeneous pixel.
 /// rotations : list of array_like or None
-///     Rotation of each camera that turned: ``d_in_cam = R @ d``.
+///     Rotation of each camera, for rotating cameras: ``d_in_cam = R @ d``.
 /// scale_px : float
 ///     Pixels per unit of a direction at z = 1.
 /// focal_factor : float, optional
-///     Factor of all focal lengths, if one was found.
+///     Common factor of the focal lengths, if it was estimated.
 #[pyclass(frozen, module = "epipole.stitch")]
 struct Panorama(stitch::Panorama);
 
@@ -163,8 +163,8 @@ impl Panorama {
         }))
     }
 
-    /// For each photo M, shape (3, 3), which maps a direction to a homogeneous pixel, or None for
-    /// photos that overlap no other.
+    /// Matrix M of each photo, shape (3, 3), which maps a direction to a homogeneous pixel, or None
+    /// for photos without overlap.
     #[getter]
     fn pixel_from_direction<'py>(
         &self,
@@ -173,33 +173,33 @@ impl Panorama {
         give_matrices(py, &self.0.pixel_from_direction)
     }
 
-    /// Rotation of each camera that turned, shape (3, 3), or None.
+    /// Rotation of each camera, shape (3, 3), for rotating cameras, or None.
     #[getter]
     fn rotations<'py>(&self, py: Python<'py>) -> PyResult<Vec<Option<Bound<'py, PyArray2<f64>>>>> {
         give_matrices(py, &self.0.rotations)
     }
 
-    /// Pixels per unit of a direction at z = 1: the focal length, for cameras that turned.
+    /// Pixels per unit of a direction at z = 1: the focal length, for rotating cameras.
     #[getter]
     fn scale_px(&self) -> f64 {
         self.0.scale_px
     }
 
-    /// Factor of all focal lengths, or None.
+    /// Common factor of the focal lengths, or None.
     #[getter]
     fn focal_factor(&self) -> Option<f64> {
         self.0.focal_factor
     }
 }
 
-/// Homography that the matches of two photos agree on, and whether there is parallax.
+/// Finds the homography on which the matches of two photos agree, and detects parallax.
 ///
 /// Parameters
 /// ----------
 /// images : tuple of int
 ///     Indices of the photos.
 /// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches, wrong ones among them.
+///     Matches, including outliers.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : OverlapOptions
@@ -208,7 +208,7 @@ impl Panorama {
 /// Returns
 /// -------
 /// Overlap or None
-///     None if no more matches agree than wrong ones might.
+///     None if no more matches agree than wrong ones might by chance.
 ///
 /// Raises
 /// ------
@@ -242,7 +242,7 @@ fn find_overlap(
     Ok(overlap.map(Overlap))
 }
 
-/// Overlaps of the library, if they are of the first `count` photos.
+/// Converts overlaps to those of the library, if they refer to the first `count` photos.
 fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overlap>> {
     let mut images = overlaps.iter().flat_map(|overlap| overlap.0.images);
     if let Some(image) = images.find(|&image| image >= count) {
@@ -253,7 +253,7 @@ fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overl
     Ok(overlaps.into_iter().map(|overlap| overlap.0).collect())
 }
 
-/// Rotations of photos taken from one place, with one factor of their focal lengths.
+/// Estimates the rotations of photos from one position, with a common focal length factor.
 ///
 /// Parameters
 /// ----------
@@ -261,7 +261,7 @@ fn of_images(overlaps: Vec<Overlap>, count: usize) -> PyResult<Vec<stitch::Overl
 ///     K of each photo; focal lengths are known or guessed.
 /// overlaps : list of Overlap
 /// find_focal : bool, optional
-///     Whether to find one factor of all focal lengths, from 1/4 to 4.
+///     Whether to estimate a common factor of all focal lengths, from 1/4 to 4.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 ///
@@ -292,7 +292,7 @@ fn estimate_panorama(
     Ok(Panorama(panorama))
 }
 
-/// Places of photos of one plane, by homographies from one to the next.
+/// Aligns photos of a plane by homographies from one to the next.
 ///
 /// Parameters
 /// ----------
@@ -303,7 +303,7 @@ fn estimate_panorama(
 /// Returns
 /// -------
 /// Panorama
-///     To be rendered with ``surface="plane"``.
+///     To render with ``surface="plane"``.
 ///
 /// Raises
 /// ------
@@ -319,7 +319,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
     ))
 }
 
-/// Image of all photos of a panorama on a surface; black where there is none.
+/// Renders all photos of a panorama on a surface; black where there is none.
 ///
 /// Parameters
 /// ----------
@@ -330,7 +330,7 @@ fn chain_homographies(num_images: usize, overlaps: Vec<Overlap>) -> PyResult<Pan
 ///     Called with the stage and the completed fraction.
 /// **options : RenderOptions
 ///     ``surface``, ``"cylinder"``, ``"plane"`` or ``"sphere"``; ``blend``, ``"bands"``,
-///     ``"feather"`` or ``"seams"``; ``gains``, whether exposures are made alike; ``max_pixels``.
+///     ``"feather"`` or ``"seams"``; ``gains``, whether to compensate exposure; ``max_pixels``.
 ///
 /// Returns
 /// -------

@@ -13,19 +13,19 @@ use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-/// Array of shape (N, 2).
+/// Creates an array of shape (N, 2).
 fn pixels(py: Python<'_>, points: &[Point2<f64>]) -> PyResult<Py<PyArray2<f64>>> {
     let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
     Ok(from_rows(py, &rows)?.unbind())
 }
 
-/// Array of shape (N, 3).
+/// Creates an array of shape (N, 3).
 fn places(py: Python<'_>, points: &[Point3<f64>]) -> PyResult<Py<PyArray2<f64>>> {
     let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
     Ok(from_rows(py, &rows)?.unbind())
 }
 
-/// Class and options that make a problem again, for pickling.
+/// Returns the class and options that recreate a problem, for pickling.
 fn reduce<'py, T: serde::Serialize>(
     object: &Bound<'py, PyAny>,
     options: &T,
@@ -37,14 +37,14 @@ fn reduce<'py, T: serde::Serialize>(
     Ok((make, PyTuple::empty(py)))
 }
 
-/// Matches between two images of 640 x 480 pixels, with the truth about them.
+/// Matches between two images of 640 x 480 pixels, with ground truth.
 ///
 /// Parameters
 /// ----------
 /// **options : TwoViewProblemOptions
-///     ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``, ``"plane"`` or
-///     ``"corner"`` likewise; ``baseline_m``, ``distance_m``, ``noise_px``,
-///     ``outlier_fraction``, ``seed``.
+///     ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``, ``"plane"`` and
+///     ``"corner"`` likewise; ``baseline_m``, ``distance_m``, ``noise_px``, ``outlier_fraction``,
+///     ``seed``.
 ///
 /// Raises
 /// ------
@@ -79,7 +79,7 @@ impl TwoViewProblem {
         self.problem.camera1.into()
     }
 
-    /// Second camera, to the right of it, which looks at the world's origin.
+    /// Second camera, to the right of the first, which looks at the origin of the world.
     #[getter]
     fn camera2(&self) -> PosedCamera {
         self.problem.camera2.into()
@@ -91,13 +91,13 @@ impl TwoViewProblem {
         pixels(py, &self.problem.pixels1)
     }
 
-    /// Their matches in the second image, shape (N, 2).
+    /// Matching pixels in the second image, shape (N, 2).
     #[getter]
     fn pixels2(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         pixels(py, &self.problem.pixels2)
     }
 
-    /// Whether a match is right up to noise, boolean array of shape (N,).
+    /// Whether each match is correct up to noise, boolean array of shape (N,).
     #[getter]
     fn is_inlier<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         self.problem.is_inlier.to_pyarray(py)
@@ -130,16 +130,15 @@ impl TwoViewProblem {
     }
 }
 
-/// Cameras, points and observations, in images of 640 x 480 pixels, with the truth about them.
+/// Cameras, points and observations, in images of 640 x 480 pixels, with ground truth.
 ///
 /// Parameters
 /// ----------
 /// **options : MultiViewProblemOptions
 ///     ``num_cameras``, ``num_points``; ``structure``, such as ``{"cube": {"half_side_m": 1.0}}``,
-///     ``"plane"`` or ``"corner"`` likewise; ``path``, such as
-///     ``{"arc": {"radius_m": 6.0, "span_rad": 1.0}}`` or
-///     ``{"line": {"distance_m": 6.0, "spacing_m": 0.5}}``; ``visible_fraction``, ``noise_px``,
-///     ``outlier_fraction``, ``seed``.
+///     ``"plane"`` and ``"corner"`` likewise; ``path``, such as ``{"arc": {"radius_m": 6.0,
+///     "span_rad": 1.0}}`` or ``{"line": {"distance_m": 6.0, "spacing_m": 0.5}}``;
+///     ``visible_fraction``, ``noise_px``, ``outlier_fraction``, ``seed``.
 ///
 /// Raises
 /// ------
@@ -165,20 +164,20 @@ impl MultiViewProblem {
         Ok(Self { options, problem })
     }
 
-    /// True cameras, a list of `epipole.camera.PosedCamera`.
+    /// Ground-truth cameras, a list of `epipole.camera.PosedCamera`.
     #[getter]
     fn cameras(&self) -> Vec<PosedCamera> {
         let cameras = self.problem.cameras.iter();
         cameras.map(|&camera| camera.into()).collect()
     }
 
-    /// True points, in the world, shape (P, 3).
+    /// Ground-truth points in the world, shape (P, 3).
     #[getter]
     fn points(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
         places(py, &self.problem.points)
     }
 
-    /// All observations, by point, and of one point by camera.
+    /// All observations, sorted by point, then by camera.
     #[getter]
     fn observations(&self, py: Python<'_>) -> PyResult<Sightings> {
         let seen = &self.problem.observations;
@@ -194,12 +193,12 @@ impl MultiViewProblem {
         })
     }
 
-    /// Observations of each point.
+    /// Returns the observations of each point.
     ///
     /// Returns
     /// -------
     /// list of Any
-    ///     Slices into the observations.
+    ///     Slices of the observations.
     fn tracks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let slice = |range: std::ops::Range<usize>| {
             pyo3::types::PySlice::new(py, range.start as isize, range.end as isize, 1)
@@ -227,13 +226,13 @@ impl MultiViewProblem {
 }
 
 record! {
-    /// Points seen by cameras; row k of each array belongs to observation k.
+    /// Observations of points by cameras; row k of each array belongs to observation k.
     "epipole.synthetic" Sightings {
-        /// Index of the camera and of the point, int64 of shape (M, 2).
+        /// Indices of the camera and the point, int64 of shape (M, 2).
         indices: Py<PyArray2<i64>>,
         /// Measured pixels, shape (M, 2).
         pixels: Py<PyArray2<f64>>,
-        /// Whether an observation is right up to noise, boolean array of shape (M,).
+        /// Whether each observation is correct up to noise, boolean array of shape (M,).
         is_inlier: Py<PyArray1<bool>>,
     }
 }
