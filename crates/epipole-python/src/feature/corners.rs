@@ -152,7 +152,7 @@ pub(super) fn non_maximum_suppression(
     Keypoints::give(response.py(), &peaks?)
 }
 
-/// Refines corners to points whose directions to the window are perpendicular to its gradients.
+/// Refines corners to subpixel positions, from the gradients around them.
 ///
 /// Parameters
 /// ----------

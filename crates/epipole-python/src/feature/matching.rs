@@ -19,8 +19,7 @@ record! {
         /// Distance between the descriptors: Euclidean, or the number of bits that differ, float32
         /// of shape (M,).
         distances: Py<PyArray1<f32>>,
-        /// Ratio of the distances to the nearest and second nearest descriptor, float32 of shape
-        /// (M,).
+        /// Ratio of nearest to second nearest distance, in [0, 1], float32 of shape (M,).
         ratios: Py<PyArray1<f32>>,
     }
 }
