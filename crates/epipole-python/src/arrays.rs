@@ -1,7 +1,7 @@
-//! NumPy arrays to points and matrices, and back.
+//! Conversion between NumPy arrays and points or matrices.
 //!
-//! Arguments are copied once, straight from the array's memory: the GIL is released while they are
-//! used, and another thread could change the array meanwhile.
+//! Arguments are copied once, straight from the array's memory: the GIL is released during the
+//! computation, and another thread might change the array meanwhile.
 
 mod batch;
 
@@ -66,7 +66,7 @@ pub(crate) fn exactly<const N: usize, const D: usize>(
     }))
 }
 
-/// [`exactly`], as points.
+/// Reads points like [`exactly`].
 pub(crate) fn exact_points<const N: usize, const D: usize>(
     name: &str,
     value: &Bound<'_, PyAny>,
@@ -119,14 +119,14 @@ pub(crate) fn mask(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> 
     }
 }
 
-/// Argument of real numbers, in row-major order.
+/// Argument with real numbers, in row-major order.
 struct Numbers<'a, 'py> {
     name: &'a str,
     array: PyReadonlyArrayDyn<'py, f64>,
 }
 
 impl<'a, 'py> Numbers<'a, 'py> {
-    /// Reads numbers of any real dtype; copies those of another dtype or order.
+    /// Reads numbers of any real dtype; copies if the dtype or order differs.
     fn read(
         name: &'a str,
         value: &Bound<'py, PyAny>,
@@ -138,7 +138,7 @@ impl<'a, 'py> Numbers<'a, 'py> {
         };
         let kind: char = array.dtype().kind().into();
         if !matches!(kind, 'f' | 'i' | 'u') {
-            // An empty list is an array of floats; only a dtype without numbers ends here.
+            // An empty list is an array of floats; only non-numeric dtypes fail here.
             let dtype: String = array.dtype().getattr("name")?.extract()?;
             return Err(PyTypeError::new_err(format!(
                 "{name} must be an array of real numbers, but its dtype is {dtype}"
@@ -160,11 +160,11 @@ impl<'a, 'py> Numbers<'a, 'py> {
         self.array.len()
     }
 
-    /// Some of the numbers. Refuses NaN.
+    /// Returns a range of the numbers. Rejects NaN.
     fn checked(&self, range: Range<usize>) -> PyResult<&[f64]> {
         let start = range.start;
         let numbers = &self.array.as_slice()?[range];
-        // Without an early end, which would be slower.
+        // An early exit would be slower.
         if !numbers.iter().fold(false, |nan, x| nan | x.is_nan()) {
             return Ok(numbers);
         }
@@ -178,13 +178,13 @@ impl<'a, 'py> Numbers<'a, 'py> {
     }
 }
 
-/// Whether elements are where the processor reads them.
+/// Returns whether elements are aligned in memory.
 pub(crate) fn is_aligned(array: &Bound<'_, PyUntypedArray>) -> PyResult<bool> {
     let flags = array.getattr(intern!(array.py(), "flags"))?;
     flags.getattr(intern!(array.py(), "aligned"))?.extract()
 }
 
-/// `numpy.asarray`, with an error that names the argument.
+/// Calls `numpy.asarray`; errors name the argument.
 pub(crate) fn as_array<'py>(
     name: &str,
     value: &Bound<'py, PyAny>,
@@ -214,7 +214,7 @@ fn wrong_shape(name: &str, expected: &str, value: &Bound<'_, PyAny>, shape: &[us
     ))
 }
 
-/// Array of shape `(N, D)`.
+/// Creates an array of shape `(N, D)`.
 pub(crate) fn from_rows<'py, const D: usize>(
     py: Python<'py>,
     rows: &[SVector<f64, D>],
@@ -222,7 +222,7 @@ pub(crate) fn from_rows<'py, const D: usize>(
     joined(py, rows.len(), rows.iter().map(SVector::as_slice), D)
 }
 
-/// Array of shape `(N, D)`.
+/// Creates an array of shape `(N, D)`.
 pub(crate) fn from_points<'py, const D: usize>(
     py: Python<'py>,
     points: &[OPoint<f64, nalgebra::Const<D>>],
@@ -242,7 +242,7 @@ fn joined<'py, 'a>(
     PyArray1::from_vec(py, numbers).reshape([count, columns])
 }
 
-/// Array of shape `(R, C)`.
+/// Creates an array of shape `(R, C)`.
 pub(crate) fn from_matrix<'py, const R: usize, const C: usize>(
     py: Python<'py>,
     matrix: &SMatrix<f64, R, C>,
@@ -250,7 +250,7 @@ pub(crate) fn from_matrix<'py, const R: usize, const C: usize>(
     PyArray1::from_slice(py, matrix.transpose().as_slice()).reshape([R, C])
 }
 
-/// Array of shape `(K, 3, 3)`.
+/// Creates an array of shape `(K, 3, 3)`.
 pub(crate) fn from_matrices<'py>(
     py: Python<'py>,
     matrices: &[Matrix3<f64>],
@@ -260,7 +260,7 @@ pub(crate) fn from_matrices<'py>(
     PyArray1::from_vec(py, numbers).reshape([matrices.len(), 3, 3])
 }
 
-/// Array of shape `(D,)`.
+/// Creates an array of shape `(D,)`.
 pub(crate) fn from_vector<'py, const D: usize>(
     py: Python<'py>,
     vector: &SVector<f64, D>,

@@ -1,6 +1,6 @@
 //! Errors of the library as Python exceptions.
 //!
-//! An argument that is wrong by itself raises a `ValueError`. Data without a result raise a
+//! An argument that is invalid by itself raises a `ValueError`. Data without a result raise a
 //! subclass of `epipole.Error`.
 
 use pyo3::create_exception;
@@ -27,9 +27,9 @@ create_exception!(
     "No model with enough support."
 );
 
-/// Conversion of the library's results.
+/// Conversion of library errors.
 pub(crate) trait OrRaise<T> {
-    /// Returns the value, or raises the exception of the error.
+    /// Returns the value, or raises the error as an exception.
     fn or_raise(self) -> PyResult<T>;
 }
 
@@ -39,7 +39,7 @@ impl<T> OrRaise<T> for epipole::Result<T> {
     }
 }
 
-/// Exception for an error.
+/// Converts an error to an exception.
 pub(crate) fn exception(error: &epipole::Error) -> PyErr {
     use epipole::Error as E;
     let message = error.to_string();

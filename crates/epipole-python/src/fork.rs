@@ -1,7 +1,7 @@
-//! Processes made by `os.fork`, such as the workers of `multiprocessing`.
+//! Processes created by `os.fork`, such as the workers of `multiprocessing`.
 //!
 //! The threads of the library's pool do not exist in the child, which would wait for them forever.
-//! A thread of the child therefore computes alone: it is the only member of its own pool.
+//! Each thread of the child therefore computes alone, in a pool of its own.
 
 use crate::threads;
 use pyo3::prelude::*;
@@ -9,18 +9,18 @@ use pyo3::types::PyDict;
 use rayon::ThreadPoolBuilder;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether this process was made by a fork.
+/// Whether this process was created by a fork.
 static IS_CHILD: AtomicBool = AtomicBool::new(false);
 
 /// Gives the current thread of a forked process a pool of its own. Does nothing elsewhere.
 ///
-/// The thread that forked has one already; other threads get one when they start work.
+/// The forking thread already has one; other threads get one when they start work.
 pub(crate) fn ensure_pool() {
     if !IS_CHILD.load(Ordering::Relaxed) || rayon::current_thread_index().is_some() {
         return;
     }
     let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
-    // Fails for threads of a pool only. This one belongs to its pool until it ends.
+    // Fails only for threads of a pool. This one belongs to its pool until it ends.
     if let Ok(pool) = pool.build() {
         std::mem::forget(pool);
     }
@@ -33,7 +33,7 @@ fn _after_fork() {
     ensure_pool();
 }
 
-/// Asks Python to prepare children of this process.
+/// Registers a hook for children of this process.
 pub(crate) fn register(package: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = package.py();
     let os = py.import("os")?;

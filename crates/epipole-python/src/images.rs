@@ -1,7 +1,7 @@
-//! NumPy arrays to images, and back.
+//! Conversion between NumPy arrays and images.
 //!
-//! Images are uint8 of shape `(H, W)` or `(H, W, 3)`, or float gray of shape `(H, W)` with black
-//! at 0 and white at 1. Objects with `__array_interface__` pass through `numpy.asarray`.
+//! Images are uint8 of shape `(H, W)` or `(H, W, 3)`, or float gray of shape `(H, W)` with black at
+//! 0 and white at 1. Objects with `__array_interface__` are converted by `numpy.asarray`.
 
 mod elements;
 
@@ -19,10 +19,10 @@ use numpy::{Element, PyArray1, PyArray2, PyArray3, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Deviation from [0, 1] that passes as the overshoot of a filter.
+/// Maximum deviation from [0, 1] that counts as the overshoot of a filter.
 const OVERSHOOT: f32 = 0.5;
 
-/// Maximum number of pixels of a result: more would exhaust the memory.
+/// Maximum number of pixels of a result; more would exhaust memory.
 const MAX_PIXELS: u64 = 1 << 32;
 
 /// Image of any kind.
@@ -35,7 +35,7 @@ pub(crate) enum Image {
     Gray32(GrayImage32),
 }
 
-/// Computes an image from one of any kind, of the same kind.
+/// Computes an image of the same kind as its input.
 macro_rules! same_kind {
     ($image:expr, |$pixels:ident| $run:expr) => {
         match $image {
@@ -51,8 +51,8 @@ impl Image {
     /// Reads an image.
     ///
     /// # Errors
-    /// `TypeError` for a dtype without a meaning, `ValueError` for a shape, for an image without
-    /// pixels, and for NaN and infinity.
+    /// `TypeError` for an unsupported dtype, `ValueError` for a wrong shape, an empty image, NaN or
+    /// infinity.
     pub(crate) fn read(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Self> {
         let array = as_array(name, value, "(H, W) or (H, W, 3)")?;
         let is_bytes = dtype(&array)? == "uint8";
@@ -81,7 +81,7 @@ impl Image {
         })
     }
 
-    /// Array of the image's kind.
+    /// Creates an array of the image's kind.
     pub(crate) fn give<'py>(self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(match self {
             Self::Gray8(image) => from_gray(py, image)?.into_any(),
@@ -91,7 +91,7 @@ impl Image {
     }
 }
 
-/// Gray image as floats, and whether it came as bytes, which count as value / 255.
+/// Gray image as floats, and whether it came as bytes, which are divided by 255.
 pub(crate) struct Gray {
     /// The gray values.
     pub(crate) pixels: GrayImage32,
@@ -129,7 +129,7 @@ impl Gray {
         })
     }
 
-    /// Array of a result, of the dtype that came in.
+    /// Creates an array of a result, with the dtype of the input.
     pub(crate) fn give<'py>(
         &self,
         py: Python<'py>,
@@ -144,7 +144,7 @@ impl Gray {
     }
 }
 
-/// Reads a gray image with values of any range; uint8 counts as value / 255.
+/// Reads a gray image with values of any range; uint8 values are divided by 255.
 ///
 /// # Errors
 /// As [`Gray::read`].
@@ -152,7 +152,7 @@ pub(crate) fn gray(name: &str, value: &Bound<'_, PyAny>) -> PyResult<GrayImage32
     Ok(Gray::read(name, value)?.pixels)
 }
 
-/// Reads a gray image for functions whose thresholds are for gray values in [0, 1].
+/// Reads a gray image for functions with thresholds for gray values in [0, 1].
 ///
 /// # Errors
 /// As [`Gray::read`], and `ValueError` for values far outside [0, 1].
@@ -193,7 +193,7 @@ pub(crate) fn rgb(name: &str, value: &Bound<'_, PyAny>) -> PyResult<RgbImage> {
     }
 }
 
-/// Reads numbers of any real dtype on a grid, shape `(H, W)`, as they are.
+/// Reads numbers of any real dtype on a grid, shape `(H, W)`, without scaling.
 ///
 /// # Errors
 /// As [`Image::read`].
@@ -220,7 +220,7 @@ pub(crate) fn disparity(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Dispar
     DisparityImage::from_raw(width, height, elements(&array, "float32")?).or_raise()
 }
 
-/// Array of real numbers of shape `(H, W)`, with W and H.
+/// Returns an array of real numbers of shape `(H, W)`, with W and H.
 fn grid<'py>(
     name: &str,
     value: &Bound<'py, PyAny>,
@@ -233,7 +233,7 @@ fn grid<'py>(
     Ok((array, width, height))
 }
 
-/// Array of shape `(H, W)`.
+/// Creates an array of shape `(H, W)`.
 pub(crate) fn from_gray<P>(
     py: Python<'_>,
     image: ImageBuffer<P, Vec<P::Subpixel>>,
@@ -245,13 +245,13 @@ where
     PyArray1::from_vec(py, image.into_raw()).reshape([height as usize, width as usize])
 }
 
-/// Array of shape `(H, W, 3)`.
+/// Creates an array of shape `(H, W, 3)`.
 pub(crate) fn from_rgb(py: Python<'_>, image: RgbImage) -> PyResult<Bound<'_, PyArray3<u8>>> {
     let (width, height) = image.dimensions();
     PyArray1::from_vec(py, image.into_raw()).reshape([height as usize, width as usize, 3])
 }
 
-/// Array of disparities, shape `(H, W)`, NaN where unknown.
+/// Creates an array of disparities, shape `(H, W)`, NaN where unknown.
 pub(crate) fn from_disparity(
     py: Python<'_>,
     disparity: DisparityImage,
@@ -259,7 +259,7 @@ pub(crate) fn from_disparity(
     from_gray(py, disparity.into_image())
 }
 
-/// Refuses the size of a result that cannot be allocated.
+/// Rejects results too large to allocate.
 ///
 /// # Errors
 /// `ValueError` naming the size.

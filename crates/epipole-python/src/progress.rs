@@ -1,4 +1,4 @@
-//! Long computations: without the GIL, with a progress callback, stopped by Ctrl-C.
+//! Long computations: without the GIL, with a progress callback, interruptible by Ctrl-C.
 
 use crate::errors::OrRaise;
 use crate::{fork, threads};
@@ -10,17 +10,17 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Interval between two looks at the clock, which costs as much as a sample of RANSAC does.
+/// Interval between clock readings, each of which costs as much as a RANSAC sample.
 const TICK: Duration = Duration::from_millis(1);
-/// Maximum number of reports between two looks at the clock.
+/// Maximum number of reports between clock readings.
 const MAX_STRIDE: u32 = 256;
 
-/// Interval between two looks at Python. Ctrl-C and the callback wait no longer than this.
+/// Interval between checks of signals and the callback, hence their maximum delay.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Runs `work` without the GIL.
 ///
-/// * `progress`: called with the stage in words and the completed share, at most every 50 ms
+/// * `progress`: called with the name of the stage and the completed fraction, at most every 50 ms
 ///
 /// # Errors
 /// The exception of the library's error, of `progress`, or of a signal (`KeyboardInterrupt`).
@@ -45,14 +45,14 @@ pub(crate) fn run<T: Send>(
         None => work(&mut watch),
         Some(pool) => spawn(&pool, &signal, || work(&mut watch)),
     });
-    // Work that ended before it could report still passes on a signal.
+    // Work that ended before its first report still propagates a signal.
     match watch.raised.or_else(|| lock(&signal).take()) {
         Some(raised) => Err(raised),
         None => result.or_raise(),
     }
 }
 
-/// Runs `work` in a pool, and meanwhile looks at signals, which only this thread receives.
+/// Runs `work` in a pool, and meanwhile checks for signals, which only this thread receives.
 fn spawn<T: Send>(
     pool: &ThreadPool,
     signal: &Mutex<Option<PyErr>>,
@@ -62,7 +62,7 @@ fn spawn<T: Send>(
     let (done, ended) = channel::<()>();
     pool.in_place_scope(|scope| {
         scope.spawn(|_| {
-            // Also a panic drops it.
+            // Also dropped by a panic.
             let _done = done;
             result = Some(work());
         });
@@ -72,7 +72,7 @@ fn spawn<T: Send>(
             }
         }
     });
-    // A panic in the scope has continued in this thread.
+    // A panic in the scope has resumed in this thread.
     result.expect("the scope waits for its work")
 }
 
@@ -80,7 +80,7 @@ fn lock(signal: &Mutex<Option<PyErr>>) -> MutexGuard<'_, Option<PyErr>> {
     signal.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Runs `work` without the GIL and without progress: short work.
+/// Runs short work without the GIL and without progress.
 pub(crate) fn detach<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     fork::ensure_pool();
     py.detach(|| match threads::pool() {
@@ -89,30 +89,30 @@ pub(crate) fn detach<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -
     })
 }
 
-/// Runs `work` without the GIL in this thread: short work that needs no others.
+/// Runs short work without the GIL in this thread, without a pool.
 pub(crate) fn release<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> T {
     py.detach(work)
 }
 
-/// Monitor that looks at Python from time to time.
+/// Monitor that calls Python at intervals.
 struct Watch<'a> {
     callback: Option<Py<PyAny>>,
     /// Stage of the last report.
     stage: Option<Stage>,
-    /// Reports since the last look at the clock, and their number between two looks.
+    /// Number of reports since the last clock reading, and between two readings.
     skipped: u32,
     stride: u32,
-    /// Time of the last look at the clock.
+    /// Time of the last clock reading.
     clock: Instant,
-    /// Time of the last look at Python.
+    /// Time of the last call to Python.
     last: Option<Instant>,
     raised: Option<PyErr>,
-    /// Exception of a signal that the thread of Python received.
+    /// Exception of a signal, received by Python's thread.
     signal: &'a Mutex<Option<PyErr>>,
 }
 
 impl Watch<'_> {
-    /// The time, if enough reports of a stage have come to look at the clock.
+    /// Reads the clock, if enough reports of a stage have passed.
     fn time(&mut self, stage: Stage) -> Option<Instant> {
         if self.stage != Some(stage) {
             (self.stage, self.stride) = (Some(stage), 1);

@@ -5,9 +5,9 @@ use numpy::prelude::*;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyString, PyTuple};
 
-/// Number of characters above which an array is shortened in a `repr`.
+/// Number of characters above which a `repr` shortens an array.
 const MAX_REPR: usize = 120;
-/// Number of elements above which a `repr` gives the length of a list only.
+/// Number of elements above which a `repr` shows only the length of a list.
 const MAX_LIST: usize = 3;
 
 /// `Class(a=1, b=<float64 array of shape (100, 2)>, c=<list of 20>)`.
@@ -20,7 +20,7 @@ pub(crate) fn repr(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<Strin
     Ok(format!("{class}({})", parts.join(", ")))
 }
 
-/// Table of the attributes, below a picture if `epipole.plot` draws one: for notebooks.
+/// Returns a table of the attributes for notebooks, below a plot if `epipole.plot` has one.
 pub(crate) fn html(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<String> {
     let escape = object.py().import("html")?.getattr("escape")?;
     let mut rows = String::new();
@@ -36,7 +36,7 @@ pub(crate) fn html(object: &Bound<'_, PyAny>, fields: &[&str]) -> PyResult<Strin
     ))
 }
 
-/// One attribute in a `repr`.
+/// Returns one attribute of a `repr`.
 fn brief(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(list) = value.cast::<PyList>()
         && list.len() > MAX_LIST
@@ -61,8 +61,8 @@ fn brief(value: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(format!("<{kind} array of shape {shape}>"))
 }
 
-/// Whether two objects have the same class and equal attributes, arrays by their elements. NaN
-/// equals NaN: it marks elements without a value.
+/// Returns whether two objects have the same class and equal attributes, comparing arrays by
+/// element. NaN equals NaN: it marks missing values.
 pub(crate) fn equal(
     object: &Bound<'_, PyAny>,
     other: &Bound<'_, PyAny>,
@@ -86,7 +86,7 @@ pub(crate) fn equal(
     Ok(true)
 }
 
-/// Class and arguments that make the object again, for pickling and copying.
+/// Returns the class and arguments that recreate the object, for pickling and copying.
 pub(crate) fn reduce<'py>(
     object: &Bound<'py, PyAny>,
     fields: &[&str],
@@ -97,8 +97,8 @@ pub(crate) fn reduce<'py>(
     Ok((object.get_type().into_any(), arguments))
 }
 
-/// Gives a class `__repr__`, `_repr_html_`, `__eq__` and `__reduce__`. Its constructor takes these
-/// attributes.
+/// Implements `__repr__`, `_repr_html_`, `__eq__` and `__reduce__` for a class. Its constructor
+/// takes these attributes.
 macro_rules! plain_class {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]
@@ -124,8 +124,8 @@ macro_rules! plain_class {
     };
 }
 
-/// Defines a class of named attributes: constructor, getters, and all of `plain_class`. Its
-/// docstring lists them as the parameters of the constructor.
+/// Defines a class of named attributes: constructor, getters, and everything of `plain_class`. Its
+/// docstring lists them as parameters of the constructor.
 macro_rules! record {
     (
         $(#[doc = $doc:literal])*

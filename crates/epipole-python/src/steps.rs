@@ -1,10 +1,10 @@
-//! Work that Python does step by step.
+//! Jobs that Python runs step by step.
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::sync::Mutex;
 
-/// Runs a function on work that is not finished.
+/// Calls a function with an unfinished job.
 ///
 /// # Errors
 /// `RuntimeError` after `finish`, or if another thread uses it.
@@ -12,7 +12,7 @@ pub(crate) fn with<T, R>(
     work: &Mutex<Option<T>>,
     run: impl FnOnce(&mut T) -> PyResult<R>,
 ) -> PyResult<R> {
-    // A blocked lock would keep the GIL that the other thread waits for.
+    // Waiting for the lock would hold the GIL that the other thread needs.
     let Ok(mut work) = work.try_lock() else {
         return Err(PyRuntimeError::new_err("another thread takes a step"));
     };
@@ -22,7 +22,7 @@ pub(crate) fn with<T, R>(
     }
 }
 
-/// Takes the work to finish it.
+/// Takes the job to finish it.
 ///
 /// # Errors
 /// As [`with`].

@@ -7,15 +7,15 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// Largest number of threads that a block may have.
+/// Maximum number of threads of a block.
 const MAX_THREADS: usize = 1024;
 
 thread_local! {
-    /// Pools of the blocks that this thread has entered, the innermost last.
+    /// Pools of the blocks that this thread has entered, innermost last.
     static ENTERED: RefCell<Vec<Arc<ThreadPool>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Pool of the innermost block.
+/// Returns the pool of the innermost block.
 pub(crate) fn pool() -> Option<Arc<ThreadPool>> {
     ENTERED.with_borrow(|pools| pools.last().cloned())
 }
@@ -26,7 +26,7 @@ pub(crate) fn forget_pools() {
     ENTERED.with_borrow_mut(|pools| pools.drain(..).for_each(std::mem::forget));
 }
 
-/// Block with a number of threads, from `epipole.threads`.
+/// Block with a number of threads, created by `epipole.threads`.
 #[pyclass(frozen, module = "epipole")]
 pub(crate) struct Threads(Arc<ThreadPool>);
 
@@ -55,7 +55,7 @@ impl Threads {
     }
 }
 
-/// Limits the threads of calls inside a `with` block, for the current thread of Python.
+/// Limits the number of threads for calls inside a `with` block, in the current Python thread.
 ///
 /// Results do not depend on the number of threads.
 ///
@@ -91,12 +91,13 @@ fn threads(count: usize) -> PyResult<Threads> {
     Ok(Threads(Arc::new(pool)))
 }
 
-/// Number of threads that calls use.
+/// Returns the number of threads that calls use.
 ///
 /// Returns
 /// -------
 /// int
-///     Of the enclosing `epipole.threads`, else `RAYON_NUM_THREADS`, else the processors.
+///     Set by the enclosing `epipole.threads`, else by `RAYON_NUM_THREADS`, else by the number of
+///     cores.
 #[pyfunction]
 fn num_threads() -> usize {
     pool().map_or_else(rayon::current_num_threads, |pool| {

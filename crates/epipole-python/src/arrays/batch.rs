@@ -1,8 +1,8 @@
-//! Functions of single points, for arrays of points.
+//! Functions of single points, applied to arrays of points.
 //!
-//! Points go to the function in blocks that stay in the cache. A fast function reads them in place;
-//! the GIL, which it holds, keeps other threads from changing them. For a slow one a block is
-//! copied and the GIL released: both cost little beside the function.
+//! Points are passed in blocks that fit in the cache. A fast function reads them in place and holds
+//! the GIL, so that other threads cannot change them. For a slow one, a block is copied and the GIL
+//! released, at a small relative cost.
 
 use super::{Numbers, wrong_shape};
 use crate::errors::OrRaise;
@@ -15,13 +15,13 @@ use pyo3::prelude::*;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Rows of a block that is read where it is, and of one that is copied.
+/// Number of rows of a block that is read in place, and of one that is copied.
 const READ_ROWS: usize = 1 << 10;
 const COPIED_ROWS: usize = 1 << 13;
-/// Time of a block of [`READ_ROWS`] from which blocks are copied: 25 times that of its copy.
+/// Duration of a block of [`READ_ROWS`] above which blocks are copied: 25 times that of the copy.
 const SLOW: Duration = Duration::from_micros(100);
 
-/// One point, or N of them, of D coordinates, as functions of single points take them.
+/// One point, or N points, with D coordinates, as input for functions of single points.
 pub(crate) struct Batch<'a, 'py, const D: usize> {
     numbers: Numbers<'a, 'py>,
 }
@@ -41,7 +41,7 @@ impl<'a, 'py, const D: usize> Batch<'a, 'py, D> {
         self.numbers.len() / D
     }
 
-    /// Whether the caller gave one point, not an array of points.
+    /// Returns whether the caller passed one point, not an array of points.
     fn is_one(&self) -> bool {
         self.numbers.shape().len() == 1
     }
@@ -51,7 +51,7 @@ impl<'a, 'py, const D: usize> Batch<'a, 'py, D> {
         Ok(numbers.as_chunks().0)
     }
 
-    /// Least and largest of each coordinate; none without points.
+    /// Returns minimum and maximum of each coordinate; none without points.
     pub(crate) fn bounds(&self) -> PyResult<Option<[(f64, f64); D]>> {
         let rows = self.rows(0..self.len())?;
         let Some((first, others)) = rows.split_first() else {
@@ -66,7 +66,7 @@ impl<'a, 'py, const D: usize> Batch<'a, 'py, D> {
         Ok(Some(bounds))
     }
 
-    /// Calls `work` with block after block.
+    /// Calls `work` for each block.
     fn each(&self, py: Python<'py>, mut work: impl FnMut(&[[f64; D]]) + Send) -> PyResult<()> {
         let mut blocks = Blocks::new(self.len());
         while let Some(rows) = blocks.next() {
@@ -82,7 +82,7 @@ impl<'a, 'py, const D: usize> Batch<'a, 'py, D> {
         Ok(())
     }
 
-    /// One number for each point: a float, or an array of shape `(N,)`.
+    /// Computes one number per point: a float, or an array of shape `(N,)`.
     pub(crate) fn numbers(
         &self,
         py: Python<'py>,
@@ -95,8 +95,8 @@ impl<'a, 'py, const D: usize> Batch<'a, 'py, D> {
         give_numbers(py, self.is_one(), values)
     }
 
-    /// One vector for each point: shape `(E,)` or `(N, E)`. An error is raised if there is one
-    /// point, and is a row of NaN among others.
+    /// Computes one vector per point: shape `(E,)` or `(N, E)`. For a single point an error is
+    /// raised; among several it becomes a row of NaN.
     pub(crate) fn vectors<const E: usize>(
         &self,
         py: Python<'py>,
@@ -192,7 +192,7 @@ impl<'a, 'py, const D: usize, const E: usize> Pairs<'a, 'py, D, E> {
     }
 }
 
-/// Ranges of rows; the time of the first decides whether the others are copied.
+/// Ranges of rows; the duration of the first decides whether the others are copied.
 struct Blocks {
     count: usize,
     end: usize,

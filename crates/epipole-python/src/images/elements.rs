@@ -1,4 +1,4 @@
-//! NumPy arrays of numbers to vectors, by dtype.
+//! Conversion of NumPy arrays of numbers to vectors, by dtype.
 
 use crate::arrays::{as_array, is_aligned};
 use numpy::prelude::*;
@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Number of elements that are tested together.
+/// Number of elements tested together.
 const BLOCK: usize = 1024;
 
 /// Reads finite numbers of shape `(N,)`.
@@ -22,7 +22,7 @@ pub(crate) fn column(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f32>>
     finite_elements(name, &array, 1)
 }
 
-/// Reads finite numbers of shape `(N, D)`: the numbers and D.
+/// Reads finite numbers of shape `(N, D)`; returns them and D.
 ///
 /// # Errors
 /// As [`Image::read`].
@@ -34,7 +34,7 @@ pub(crate) fn table(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(Vec<f32>,
     Ok((finite_elements(name, &array, columns)?, columns))
 }
 
-/// Array of real numbers.
+/// Reads an array of real numbers.
 pub(super) fn real_array<'py>(
     name: &str,
     value: &Bound<'py, PyAny>,
@@ -50,7 +50,7 @@ pub(super) fn real_array<'py>(
     )))
 }
 
-/// Elements in row-major order, converted to the dtype of T.
+/// Returns elements in row-major order, converted to the dtype of T.
 pub(crate) fn elements<T: Element + Copy>(
     array: &Bound<'_, PyUntypedArray>,
     dtype: &str,
@@ -58,7 +58,7 @@ pub(crate) fn elements<T: Element + Copy>(
     Ok(tested_elements(array, dtype, |_| false)?.0)
 }
 
-/// As [`elements`], with the place of the first that is wrong.
+/// Returns [`elements`] with the position of the first invalid one.
 fn tested_elements<T: Element + Copy>(
     array: &Bound<'_, PyUntypedArray>,
     dtype: &str,
@@ -70,7 +70,7 @@ fn tested_elements<T: Element + Copy>(
     };
     let typed = typed.readonly();
     let view = typed.as_array();
-    // The slice of the view is row-major; that of the array may be column-major.
+    // The slice of the view is row-major; the array's slice may be column-major.
     let Some(slice) = view.as_slice() else {
         let values: Vec<T> = view.iter().copied().collect();
         let place = first(&values, is_wrong);
@@ -84,10 +84,10 @@ fn tested_elements<T: Element + Copy>(
     Ok((values, place))
 }
 
-/// Finite numbers in row-major order; rows have the given length.
+/// Returns finite numbers in row-major order; rows have the given length.
 ///
 /// # Errors
-/// `ValueError` naming the argument and the row of NaN or infinity.
+/// `ValueError` with the argument and the row of NaN or infinity.
 pub(super) fn finite_elements(
     name: &str,
     array: &Bound<'_, PyUntypedArray>,
@@ -108,16 +108,16 @@ pub(super) fn finite_elements(
     )))
 }
 
-/// Place of the first element that is wrong.
+/// Returns the position of the first invalid element.
 pub(super) fn first<T: Copy>(values: &[T], is_wrong: impl Fn(T) -> bool) -> Option<usize> {
-    // A block is tested to its end: the processor then tests several elements at once.
+    // Blocks are tested to their end, so that the processor can test several elements at once.
     let fits = |block: &[T]| !(block.iter()).fold(false, |wrong, &x| wrong | is_wrong(x));
     let start = BLOCK * values.chunks(BLOCK).position(|block| !fits(block))?;
     let place = values[start..].iter().position(|&value| is_wrong(value))?;
     Some(start + place)
 }
 
-/// Error of an unexpected shape.
+/// Returns the error for an unexpected shape.
 pub(crate) fn wrong_shape(
     name: &str,
     expected: &str,
@@ -129,17 +129,17 @@ pub(crate) fn wrong_shape(
     )))
 }
 
-/// Shape in Python's notation.
+/// Formats a shape in Python's notation.
 pub(super) fn shape_text(array: &Bound<'_, PyUntypedArray>) -> PyResult<String> {
     Ok(PyTuple::new(array.py(), array.shape())?.repr()?.to_string())
 }
 
-/// Name of the dtype.
+/// Returns the name of the dtype.
 pub(crate) fn dtype(array: &Bound<'_, PyUntypedArray>) -> PyResult<String> {
     array.dtype().getattr("name")?.extract()
 }
 
-/// Kind of the dtype, such as 'f' for floats.
+/// Returns the kind of the dtype, such as 'f' for floats.
 pub(crate) fn kind(array: &Bound<'_, PyUntypedArray>) -> char {
     array.dtype().kind().into()
 }

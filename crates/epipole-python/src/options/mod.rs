@@ -1,7 +1,7 @@
-//! Keyword options to the library's option structs.
+//! Conversion of keyword options to the library's option structs.
 //!
-//! A struct's defaults become a dictionary, the caller's options replace entries of it, and the
-//! result is read back by serde. Names and defaults stand in the library only.
+//! A struct's defaults become a dictionary, the caller's options replace entries of it, and serde
+//! reads the result back. Names and defaults are defined in the library only.
 
 mod hints;
 
@@ -40,7 +40,7 @@ where
     parse(&merged, "option")
 }
 
-/// Reads one argument, such as a loss, by serde: `"trivial"` or `{"huber": {"width": 2.0}}`.
+/// Reads one argument, such as a loss, via serde: `"trivial"` or `{"huber": {"width": 2.0}}`.
 ///
 /// # Errors
 /// `TypeError` naming the argument.
@@ -48,7 +48,7 @@ pub(crate) fn value<T: DeserializeOwned>(name: &str, value: &Bound<'_, PyAny>) -
     parse(value, name)
 }
 
-/// Reads a robust loss; plain least squares if not given.
+/// Reads a robust loss; plain least squares by default.
 ///
 /// # Errors
 /// `TypeError` naming the argument `loss`.
@@ -56,8 +56,8 @@ pub(crate) fn loss(loss: Option<&Bound<'_, PyAny>>) -> PyResult<RobustLoss> {
     loss.map_or(Ok(RobustLoss::Trivial), |loss| value("loss", loss))
 }
 
-/// Adds an option struct to the table `_options` of a module, for the type stubs: type hints by
-/// name, and defaults by name for the struct itself, not for those inside it.
+/// Adds an option struct to the table `_options` of a module, for the type stubs: its type hints by
+/// name, and its defaults by name, without those of nested structs.
 pub(crate) fn declare<T>(module: &Bound<'_, PyModule>, defaults: &T) -> PyResult<()>
 where
     T: Serialize + DeserializeOwned,
@@ -79,7 +79,7 @@ where
     Ok(())
 }
 
-/// Replaces entries of `merged`. A nested struct keeps the entries that are not given.
+/// Replaces entries of `merged`. Nested structs keep entries that are not given.
 fn merge(merged: &Bound<'_, PyDict>, options: &Bound<'_, PyDict>, path: &str) -> PyResult<()> {
     for (key, value) in options {
         let Some(default) = merged.get_item(&key)? else {
@@ -109,7 +109,7 @@ fn parse<T: DeserializeOwned>(value: &Bound<'_, PyAny>, what: &str) -> PyResult<
             format!("{what} {path}")
         };
         let message = error.inner().to_string();
-        // A negative or huge integer for a count.
+        // Negative or too large integers for a count.
         if message.contains("OverflowError") {
             return PyValueError::new_err(format!("{name} is out of range: {message}"));
         }
