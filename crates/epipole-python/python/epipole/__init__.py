@@ -1,19 +1,19 @@
 """Multi-view geometry: robust estimation, pose, triangulation, stereo, reconstruction.
 
-The modules are those of the Rust library. What its prelude has is also here.
+The modules are those of the Rust library. The items of its prelude are also here.
 
 Conventions
 -----------
 * Pixels are (u, v) = (column, row), pixel centers at integers.
 * Camera frame: x right, y down, z forward; ``x_in_cam = cam_from_world @ x_in_world``.
-* Arrays in are ``(N, 2)`` or ``(N, 3)`` of any real dtype, lists included; arrays out are float64.
+* Input arrays are ``(N, 2)`` or ``(N, 3)``, of any real dtype, or lists; output is float64.
 * Equal seeds give equal results on every platform.
 
 Errors
 ------
-* Data without a result raise a subclass of ``epipole.Error``; the sections ``Raises`` say when.
-* Wrong types, unknown options, wrong shapes, lengths that differ and non-finite numbers raise
-  ValueError or TypeError naming the argument, in every function. ``Raises`` lists what else does.
+* Data without a result raise a subclass of ``epipole.Error``, as listed under ``Raises``.
+* In every function, wrong types, unknown options, wrong shapes, unequal lengths and non-finite
+  numbers raise a ValueError or TypeError that names the argument. ``Raises`` lists other causes.
 """
 
 from epipole._epipole import (

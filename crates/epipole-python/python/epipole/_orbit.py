@@ -1,4 +1,4 @@
-"""View of a reconstruction in a notebook: a picture, which a script replaces by one that turns."""
+"""Notebook view of a reconstruction: an image that a script replaces by a rotatable view."""
 
 import base64
 import functools
@@ -12,11 +12,11 @@ import numpy as np
 from epipole import sfm
 from epipole.camera import PosedCamera
 
-# A notebook keeps the bytes of each output.
+# Limits the size of the notebook, which stores each output.
 _MAX_POINTS = 4000
 # Units of a position per radius of the cloud, as in `_orbit.js`.
 _UNIT = 8000
-# Distance from the center of a camera to the corners of its image, radii.
+# Depth of the frusta of cameras, radii of the cloud.
 _DEPTH = 0.12
 
 
@@ -26,7 +26,7 @@ def _script() -> str:
 
 
 def orbit(result: sfm.Reconstruction, picture: str) -> str:
-    """HTML of a reconstruction; `picture` is for viewers that run no scripts."""
+    """Returns the HTML of a reconstruction; viewers without scripts show `picture`."""
     cameras = [camera for camera in result.cameras if camera is not None]
     text = f"{len(cameras)} cameras and {len(result.points)} points"
     kept = np.isfinite(result.points).all(axis=1)
@@ -39,7 +39,7 @@ def orbit(result: sfm.Reconstruction, picture: str) -> str:
     radius = np.quantile(np.linalg.norm(points - center, axis=1), 0.9) or 1.0
     frusta = [_frustum(camera, _DEPTH * radius) for camera in cameras]
     places = np.concatenate([points, *frusta])
-    # Upright as the cameras are, and seen from their side.
+    # Upright like the cameras, and viewed from their side.
     axes = _axes([camera.cam_from_world.rotation for camera in cameras])
     places = (places - center) @ axes.T * (_UNIT / radius)
     content = np.clip(np.rint(places), -32767, 32767).astype("<i2").tobytes() + colors.tobytes()
@@ -57,7 +57,7 @@ def orbit(result: sfm.Reconstruction, picture: str) -> str:
 
 
 def _frustum(camera: PosedCamera, depth: float) -> np.ndarray:
-    """Center and corners of the image of a camera, in the world."""
+    """Returns the center of a camera and the corners of its image plane, in the world."""
     width, height = camera.camera.width - 1, camera.camera.height - 1
     k = camera.camera.intrinsics
     corners = [[0, 0], [width, 0], [width, height], [0, height]]
@@ -67,6 +67,6 @@ def _frustum(camera: PosedCamera, depth: float) -> np.ndarray:
 
 
 def _axes(rotations: list[np.ndarray]) -> np.ndarray:
-    """Right, down and forward of the cameras on average, as rows."""
+    """Returns the mean right, down and forward directions of the cameras, as rows."""
     u, _, vt = np.linalg.svd(np.mean(rotations, axis=0))
     return u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt

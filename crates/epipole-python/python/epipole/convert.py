@@ -1,8 +1,8 @@
-"""Cameras, poses, key points and clouds of OpenCV, pycolmap, PoseLib and Open3D, in both directions.
+"""Conversion of cameras, poses, keypoints and clouds to and from other libraries.
 
-Each function imports the other library when it is called. Pixel centers are at integers in
-Epipole, OpenCV and Open3D, and at halves in COLMAP; these functions shift principal points
-accordingly.
+These are OpenCV, pycolmap, PoseLib and Open3D; each function imports its library when called.
+Pixel centers are at integers in Epipole, OpenCV and Open3D, and at half-integers in COLMAP; these
+functions shift principal points accordingly.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ __all__ = [
 
 
 def to_opencv(camera: Camera) -> tuple[Any, Any]:
-    """Camera matrix and distortion coefficients of OpenCV.
+    """Converts a camera to OpenCV's camera matrix and distortion coefficients.
 
     Parameters
     ----------
@@ -39,12 +39,12 @@ def to_opencv(camera: Camera) -> tuple[Any, Any]:
     -------
     camera_matrix : ndarray, shape (3, 3)
     dist_coeffs : ndarray, shape (5,), (8,) or (4,)
-        The last for a fisheye, which takes the functions of ``cv2.fisheye``.
+        Shape (4,) is for a fisheye, for use with the functions of ``cv2.fisheye``.
 
     Raises
     ------
     ValueError
-        If its lens is a division model, which OpenCV does not have.
+        If the lens is a division model, which OpenCV lacks.
     """
     if camera.lens.kind == "division":
         raise ValueError("OpenCV has no division model")
@@ -54,17 +54,17 @@ def to_opencv(camera: Camera) -> tuple[Any, Any]:
 def from_opencv(
     camera_matrix: Any, dist_coeffs: Any, width: int, height: int, *, fisheye: bool = False
 ) -> Camera:
-    """Camera of OpenCV's matrix and distortion coefficients.
+    """Converts OpenCV's camera matrix and distortion coefficients to a camera.
 
     Parameters
     ----------
     camera_matrix : array_like, shape (3, 3)
     dist_coeffs : array_like of 0, 4, 5 or 8 numbers, or None
-        Further coefficients must be 0.
+        Additional coefficients must be 0.
     width, height : int
         Image size, pixels.
     fisheye : bool
-        Whether the coefficients are those of ``cv2.fisheye``.
+        Whether the coefficients are for ``cv2.fisheye``.
 
     Returns
     -------
@@ -73,7 +73,7 @@ def from_opencv(
     Raises
     ------
     ValueError
-        If no lens has the coefficients.
+        If no lens model has these coefficients.
     """
     numbers = np.zeros(0) if dist_coeffs is None else np.asarray(dist_coeffs, float).ravel()
     if not np.isfinite(numbers).all():
@@ -94,7 +94,7 @@ def from_opencv(
 
 
 def points_from_opencv(keypoints: Sequence[Any]) -> Any:
-    """Pixels of key points.
+    """Converts keypoints to an array of pixels.
 
     Parameters
     ----------
@@ -108,13 +108,13 @@ def points_from_opencv(keypoints: Sequence[Any]) -> Any:
 
 
 def points_to_opencv(points: Any, size_px: float = 1.0) -> list[Any]:
-    """``cv2.KeyPoint`` of pixels.
+    """Converts pixels to a list of ``cv2.KeyPoint``.
 
     Parameters
     ----------
     points : array_like, shape (N, 2)
     size_px : float
-        Diameter of the key points, pixels.
+        Diameter of the keypoints, pixels.
 
     Returns
     -------
@@ -126,7 +126,7 @@ def points_to_opencv(points: Any, size_px: float = 1.0) -> list[Any]:
 
 
 def to_pycolmap(value: Camera | RigidTransform) -> Any:
-    """``pycolmap.Camera`` of a camera, ``pycolmap.Rigid3d`` of a transform.
+    """Converts a camera to a ``pycolmap.Camera``, a transform to a ``pycolmap.Rigid3d``.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def to_pycolmap(value: Camera | RigidTransform) -> Any:
     Raises
     ------
     ValueError
-        If its lens is a division model, which COLMAP does not have.
+        If the lens is a division model, which COLMAP lacks.
     """
     import pycolmap
 
@@ -151,7 +151,7 @@ def to_pycolmap(value: Camera | RigidTransform) -> Any:
 
 
 def from_pycolmap(value: Any) -> Camera | RigidTransform:
-    """Camera of a ``pycolmap.Camera``, transform of a ``pycolmap.Rigid3d``.
+    """Converts a ``pycolmap.Camera`` to a camera, a ``pycolmap.Rigid3d`` to a transform.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def from_pycolmap(value: Any) -> Camera | RigidTransform:
     Raises
     ------
     ValueError
-        If no lens has the camera's model.
+        If the camera model has no equivalent lens.
     """
     if hasattr(value, "translation"):
         x, y, z, w = value.rotation.quat
@@ -174,7 +174,7 @@ def from_pycolmap(value: Any) -> Camera | RigidTransform:
 
 
 def to_poselib(value: Camera | RigidTransform) -> Any:
-    """PoseLib's dictionary of a camera, ``poselib.CameraPose`` of a transform.
+    """Converts a camera to PoseLib's dictionary, a transform to a ``poselib.CameraPose``.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def to_poselib(value: Camera | RigidTransform) -> Any:
     Raises
     ------
     ValueError
-        If its lens is a division model, which PoseLib does not have.
+        If the lens is a division model, which PoseLib lacks.
     """
     if isinstance(value, RigidTransform):
         import poselib
@@ -202,7 +202,7 @@ def to_poselib(value: Camera | RigidTransform) -> Any:
 
 
 def from_poselib(value: Any) -> Camera | RigidTransform:
-    """Camera of PoseLib's dictionary, transform of a ``poselib.CameraPose``.
+    """Converts PoseLib's dictionary to a camera, a ``poselib.CameraPose`` to a transform.
 
     Parameters
     ----------
@@ -215,7 +215,7 @@ def from_poselib(value: Any) -> Camera | RigidTransform:
     Raises
     ------
     ValueError
-        If no lens has the camera's model.
+        If the camera model has no equivalent lens.
     """
     if isinstance(value, dict):
         k, lens = _from_colmap_model(value["model"], list(value["params"]))
@@ -224,12 +224,12 @@ def from_poselib(value: Any) -> Camera | RigidTransform:
 
 
 def to_open3d(value: Camera | PosedCamera | PointCloud | Reconstruction) -> Any:
-    """Camera, posed camera or cloud of Open3D. Transforms of Open3D are matrices.
+    """Converts a camera, posed camera or cloud to Open3D, which uses matrices as transforms.
 
     Parameters
     ----------
     value : Camera, PosedCamera, epipole.stereo.PointCloud or epipole.sfm.Reconstruction
-        Cameras without distortion; of a reconstruction its points.
+        Cameras must have no distortion; the points of a reconstruction are converted.
 
     Returns
     -------
@@ -238,9 +238,9 @@ def to_open3d(value: Camera | PosedCamera | PointCloud | Reconstruction) -> Any:
     Raises
     ------
     ValueError
-        If a camera has distortion, which Open3D does not have.
+        If a camera has distortion, which Open3D does not support.
     TypeError
-        If Open3D has no such class.
+        If Open3D has no class for the value.
     """
     import open3d
 
@@ -266,7 +266,7 @@ def to_open3d(value: Camera | PosedCamera | PointCloud | Reconstruction) -> Any:
 
 
 def from_open3d(value: Any) -> Camera | PosedCamera | PointCloud:
-    """Camera, posed camera or cloud of Open3D's.
+    """Converts a camera, posed camera or cloud from Open3D.
 
     Parameters
     ----------
@@ -280,7 +280,7 @@ def from_open3d(value: Any) -> Camera | PosedCamera | PointCloud:
     Raises
     ------
     TypeError
-        If it is of another class.
+        If the value has another class.
     """
     import open3d
 
@@ -303,7 +303,7 @@ def from_open3d(value: Any) -> Camera | PosedCamera | PointCloud:
 def _colmap_model(
     camera: Camera, focal_and_center: Sequence[float]
 ) -> tuple[str, list[float]]:
-    """Name and parameters of COLMAP's camera model, which PoseLib shares."""
+    """Returns name and parameters of COLMAP's camera model, which PoseLib also uses."""
     kind, c = camera.lens.kind, list(camera.lens.coefficients)
     start = list(focal_and_center)
     if camera.is_pinhole():
@@ -320,7 +320,7 @@ def _colmap_model(
 def _from_colmap_model(
     model: str, params: list[float]
 ) -> tuple[list[float], Lens | None]:
-    """Focal lengths with principal point, and the lens."""
+    """Returns the focal lengths with the principal point, and the lens."""
     if model in ("SIMPLE_PINHOLE", "SIMPLE_RADIAL", "RADIAL"):
         focal, cx, cy, *c = params
         brown = (c + [0.0] * 5)[:2] + [0.0] * 3

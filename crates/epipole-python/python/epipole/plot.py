@@ -1,7 +1,7 @@
-"""Pictures of results, drawn by matplotlib (``pip install epipole[plot]``).
+"""Plots of results with matplotlib (``pip install epipole[plot]``).
 
-Each function draws into ``ax``, or into new axes without it, and returns the axes. Pixel centers
-are at integers, as everywhere in Epipole, so that ``imshow`` and points agree.
+Each function draws on ``ax``, or on new axes by default, and returns the axes. Pixel centers are
+at integers, as everywhere in Epipole, so that ``imshow`` and points agree.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ __all__ = [
     "residuals",
 ]
 
-# Blue and vermilion of Okabe and Ito, which color-blind readers tell apart.
+# Blue and vermilion from the color-blind-safe palette of Okabe and Ito.
 _INLIER = "#0072B2"
 _OUTLIER = "#D55E00"
 
@@ -45,7 +45,7 @@ def matches(
     max_lines: int = 300,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draws two images side by side with a line for each match.
+    """Draws two images side by side, with a line for each match.
 
     Parameters
     ----------
@@ -53,11 +53,11 @@ def matches(
     points1, points2 : array, shape (N, 2)
         Pixels of the matches.
     inliers : boolean array, shape (N,), optional
-        Inliers are drawn in blue, outliers dashed in vermilion and below them.
+        Inliers are drawn in blue, outliers dashed in vermilion below them.
     max_lines : int
-        Maximum number of lines, spread evenly over the list.
+        Maximum number of lines, for matches evenly spaced in the list.
     ax : Axes, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -108,9 +108,9 @@ def epipolar_lines(
     lines : array, shape (N, 3)
         Lines a u + b v + c = 0, as from ``epipolar_line2``.
     points : array, shape (N, 2), optional
-        Pixels drawn in the color of their line.
+        Pixels, each drawn in the color of its line.
     ax : Axes, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -145,15 +145,15 @@ def epipolar_lines(
 def disparity(
     values: ArrayLike, *, label: str = "disparity, pixels", ax: Axes | None = None
 ) -> Axes:
-    """Draws a disparity or depth image with a color bar. NaN is left gray.
+    """Draws a disparity or depth image with a color bar. NaN is gray.
 
     Parameters
     ----------
     values : array, shape (H, W)
     label : str
-        Text beside the color bar.
+        Label of the color bar.
     ax : Axes, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -165,7 +165,7 @@ def disparity(
     ax = _axes(ax)
     ax.set_facecolor("0.75")
     known = np.isfinite(image)
-    # A few wild values do not take the colors from all others.
+    # Percentiles keep a few outliers from compressing the color range.
     low, high = np.percentile(image[known], [1, 99]) if known.any() else (0.0, 1.0)
     shown = ax.imshow(np.where(known, image, np.nan), cmap="viridis", vmin=low, vmax=high)
     ax.figure.colorbar(shown, ax=ax, label=label)
@@ -182,20 +182,20 @@ def cameras(
     size: float | None = None,
     ax: Axes3D | None = None,
 ) -> Axes3D:
-    """Draws cameras as pyramids, with points, in three dimensions.
+    """Draws cameras as pyramids, and points, in 3D.
 
     Parameters
     ----------
     cam_from_world : sequence
         Poses: 3×4 or 4×4 matrices, or objects with ``rotation`` and ``translation``.
     points : array, shape (N, 3), optional
-        Points of the world.
+        Points in the world.
     colors : array, shape (N, 3), optional
-        Colors of the points: 0 to 1, or whole numbers to 255.
+        Colors of the points: floats from 0 to 1, or integers from 0 to 255.
     size : float, optional
-        Depth of the pyramids, units of the world [default: a tenth of the extent].
+        Depth of the pyramids, world units [default: a tenth of the extent].
     ax : Axes3D, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -229,13 +229,13 @@ def cameras(
 
 
 def reconstruction(result: sfm.Reconstruction, *, ax: Axes3D | None = None) -> Axes3D:
-    """Draws the cameras and the colored points of a reconstruction, in three dimensions.
+    """Draws the cameras and colored points of a reconstruction in 3D.
 
     Parameters
     ----------
     result : epipole.sfm.Reconstruction
     ax : Axes3D, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -248,7 +248,7 @@ def reconstruction(result: sfm.Reconstruction, *, ax: Axes3D | None = None) -> A
 def residuals(
     errors_px: ArrayLike, *, max_error_px: float | None = None, ax: Axes | None = None
 ) -> Axes:
-    """Draws a histogram of residuals, on a logarithmic axis.
+    """Draws a histogram of residuals on a logarithmic axis.
 
     Parameters
     ----------
@@ -257,7 +257,7 @@ def residuals(
     max_error_px : float, optional
         Inlier threshold, drawn as a line.
     ax : Axes, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -284,16 +284,16 @@ def residuals(
 def coverage(
     views: Sequence[ArrayLike], width: int, height: int, *, ax: Axes | None = None
 ) -> Axes:
-    """Draws where the marks of calibration images lie in the picture.
+    """Draws the positions of the marks in calibration images.
 
     Parameters
     ----------
     views : sequence of arrays, shape (N, 2)
-        Pixels of the marks of each image; rows with NaN are marks that were not found.
+        Pixels of the marks in each image; rows of NaN for marks that were not found.
     width, height : int
         Size of the images, pixels.
     ax : Axes, optional
-        Axes to draw in [default: new ones].
+        Axes to draw on [default: new axes].
 
     Returns
     -------
@@ -351,7 +351,7 @@ def _image(name: str, values: ArrayLike) -> NDArray[Any]:
 
 
 def _rgb(image: NDArray[Any]) -> NDArray[np.float64]:
-    """Values in [0, 1], three channels."""
+    """Returns an image with three channels and values in [0, 1]."""
     scaled = image / 255 if image.dtype.kind in "iu" else image.astype(float)
     scaled = np.clip(scaled, 0, 1)
     return scaled if scaled.ndim == 3 else np.repeat(scaled[:, :, None], 3, axis=2)
@@ -371,7 +371,7 @@ def _pose(name: str, pose: Any) -> tuple[NDArray[np.float64], NDArray[np.float64
 def _across(
     line: NDArray[np.float64], width: int, height: int
 ) -> NDArray[np.float64] | None:
-    """Where a line enters and leaves an image; None where it misses."""
+    """Returns the points where a line enters and leaves an image, or None if it misses."""
     a, b, c = line
     left, right, top, bottom = -0.5, width - 0.5, -0.5, height - 0.5
     ends = []
@@ -398,19 +398,19 @@ def _distinct(count: int) -> list[Any]:
 
 
 def _html_picture(result: object) -> str:
-    """View of a result in a notebook, as HTML; empty for results that have none."""
+    """Returns the notebook view of a result as HTML; empty for results without a view."""
     if not isinstance(result, sfm.Reconstruction):
         return ""
     return _orbit(result, _still(result))
 
 
 def _still(result: sfm.Reconstruction) -> str:
-    """Picture of a reconstruction, as HTML; empty without matplotlib."""
+    """Returns a static image of a reconstruction as HTML; empty without matplotlib."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
         return ""
-    # Without pyplot, which would show the figure again.
+    # Avoid pyplot, which would show the figure again.
     figure = Figure(figsize=(6, 4), layout="tight")
     reconstruction(result, ax=figure.add_subplot(projection="3d"))
     file = io.BytesIO()
