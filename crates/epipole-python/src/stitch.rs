@@ -163,8 +163,7 @@ impl Panorama {
         }))
     }
 
-    /// Matrix M of each photo, shape (3, 3), which maps a direction to a homogeneous pixel, or None
-    /// for photos without overlap.
+    /// Matrix of each photo, direction to homogeneous pixel, shape (3, 3); None without overlap.
     #[getter]
     fn pixel_from_direction<'py>(
         &self,

@@ -243,7 +243,7 @@ impl BoardView {
         Ok((marks, from_rows(py, &pixels)?))
     }
 
-    /// Number of visible marks.
+    /// Returns the number of visible marks.
     fn num_seen(&self) -> usize {
         self.0.num_seen()
     }

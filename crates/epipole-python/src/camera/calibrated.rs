@@ -122,7 +122,7 @@ impl Camera {
         Batch::<2>::read("pixel", pixel)?.vectors(pixel.py(), unproject)
     }
 
-    /// Undistorts pixels, to those of a camera with the same K and no distortion.
+    /// Undistorts pixels: maps them to a camera with the same K and no distortion.
     ///
     /// Parameters
     /// ----------

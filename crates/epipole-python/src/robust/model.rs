@@ -27,7 +27,7 @@ impl Raised {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Monitor that also cancels after an exception.
+    /// Returns a monitor that also cancels after an exception.
     pub(super) fn watch(&self, monitor: &mut dyn Monitor) -> impl FnMut(Status) -> ControlFlow<()> {
         |status| match *self.lock() {
             None => monitor.report(status),

@@ -69,7 +69,7 @@ impl RansacReport {
     }
 }
 
-/// Generic alias of a class with its model type.
+/// Returns the generic alias of a class with its model type.
 pub(super) fn alias<'py>(
     class: &Bound<'py, PyType>,
     model: &Bound<'py, PyAny>,

@@ -18,7 +18,7 @@ use pyo3::types::{PyDict, PyList};
 /// Parameters
 /// ----------
 /// sensor_from_camera : RigidTransform
-///     From the frame of the camera to that of the sensor; not refined.
+///     Transform from the camera frame to the sensor frame; not refined.
 /// camera : Camera
 ///     Image size, intrinsics and lens of the sensor.
 /// lens : int
@@ -41,7 +41,7 @@ impl Sensor {
         })
     }
 
-    /// From the frame of the camera to that of the sensor.
+    /// Transform from the camera frame to the sensor frame.
     #[getter]
     fn sensor_from_camera(&self) -> RigidTransform {
         self.0.sensor_from_camera.into()

@@ -18,7 +18,7 @@ use pyo3::types::PyDict;
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     Some of those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
+///     See `reconstruct`; used are ``max_reprojection_error_px``, ``min_angle_deg``,
 ///     ``min_track_length``.
 ///
 /// Returns

@@ -176,7 +176,7 @@ pub(super) fn estimate_similarity_of_points<'py>(
     Ok((Similarity3(similarity), inliers.to_pyarray(py)))
 }
 
-/// Averages rotations: finds those of the views that best fit the measurements between pairs.
+/// Computes the rotations of views that best fit measured rotations between pairs.
 ///
 /// Parameters
 /// ----------
@@ -185,7 +185,7 @@ pub(super) fn estimate_similarity_of_points<'py>(
 /// pairs : array_like of int, shape (M, 2)
 ///     Indices of the two views of each measurement.
 /// to_from_from : array_like, shape (M, 3, 3)
-///     Rotation from the frame of the first view to that of the second.
+///     Rotation from the frame of the first view to the frame of the second.
 /// loss : str or dict, optional
 ///     Its width is in radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``; ``"cauchy"`` and
 ///     ``"truncated"`` likewise.

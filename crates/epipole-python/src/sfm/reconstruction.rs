@@ -35,7 +35,7 @@ use pyo3::types::PyDict;
 /// errors_px : array_like, shape (P,), optional
 ///     Root mean square of the reprojection errors of each point, pixels. 0 by default.
 /// is_placed : bool, optional
-///     Whether the frame is that of the known image positions, in their unit of length.
+///     Whether the frame agrees with the known image positions, in their unit of length.
 ///
 /// Raises
 /// ------
@@ -123,7 +123,7 @@ impl Reconstruction {
         PyArray1::from_iter(py, self.0.points.iter().map(|point| point.error_px))
     }
 
-    /// Whether the frame is that of the known image positions, in their unit of length.
+    /// Whether the frame agrees with the known image positions, in their unit of length.
     #[getter]
     fn is_placed(&self) -> bool {
         self.0.is_placed

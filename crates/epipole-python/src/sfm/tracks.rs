@@ -108,7 +108,7 @@ record! {
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : SfmOptions
-///     See `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
+///     See `reconstruct`; used are ``ransac``, a dict, ``min_num_inliers``, ``seed``.
 ///
 /// Returns
 /// -------

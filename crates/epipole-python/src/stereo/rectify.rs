@@ -142,8 +142,7 @@ impl Rectification {
         from_matrices(py, &self.0.homographies)
     }
 
-    /// Q of ``(X, Y, Z, W) = Q @ (u, v, d, 1)``, in the rectified frame of the first camera, shape
-    /// (4, 4).
+    /// Q, ``(X, Y, Z, W) = Q @ (u, v, d, 1)`` in camera 1's rectified frame, shape (4, 4).
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         from_matrix(py, &self.0.q)
