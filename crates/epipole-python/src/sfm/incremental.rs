@@ -17,8 +17,8 @@ use std::sync::Mutex;
 /// Parameters
 /// ----------
 /// kind : {"started", "registered", "adjusted"}
-/// The two images that started a component, the registered one, or none.
-///     Two images that started a component, the registered one, or none.
+/// images : list of int
+///     The two images that started a component, the registered one, or none.
 /// num_registered : int, optional
 ///     Number of registered images in the component.
 /// num_points : int, optional

@@ -103,8 +103,9 @@ macro_rules! matcher {
             ///
             /// Parameters
             /// ----------
-            /// Rectified gray images whose matches share a row. Both uint8, or both float with any
-            /// range; their minimum and maximum are mapped to 0 and 255.
+            /// left, right : array_like, shape (H, W)
+            ///     Rectified gray images whose matches share a row. Both uint8, or both float with
+            ///     any range; their minimum and maximum are mapped to 0 and 255.
             /// progress : callable, optional
             ///     Called with the stage and the completed fraction.
             ///
