@@ -14,8 +14,8 @@ use pyo3::types::PyDict;
 /// Parameters
 /// ----------
 /// photo : array_like, shape (H, W, 3)
-///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass ``photo[...,
-///     ::-1]``.
+///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass
+///     ``photo[..., ::-1]``.
 ///
 /// Returns
 /// -------

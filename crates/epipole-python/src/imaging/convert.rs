@@ -40,8 +40,8 @@ pub(super) fn gray_to_u8<'py>(image: &Bound<'py, PyAny>) -> PyResult<Bound<'py, 
 /// Parameters
 /// ----------
 /// image : array_like, shape (H, W, 3)
-///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass ``image[...,
-///     ::-1]``.
+///     uint8, in the order red, green, blue. For images from `cv2.imread`, pass
+///     ``image[..., ::-1]``.
 ///
 /// Returns
 /// -------
