@@ -258,21 +258,21 @@ export interface BundleLike {
 /** Options of `adjustBundle`. */
 export interface BundleOptions {
   /**
-   * When to stop. @default { costTolerance: 0.000000001, gradientTolerance: 0.0000000001,
-   * initialDamping: 0.0001, maxIterations: 50, patience: 0, stepTolerance: 0.0000000001 }
+   * Stopping criteria of the solver. @default { costTolerance: 0.000000001, gradientTolerance:
+   * 0.0000000001, initialDamping: 0.0001, maxIterations: 50, patience: 0, stepTolerance: 0.0000000001 }
    */
   lm?: LmOptions;
-  /** The loss of each reprojection error; its width is in pixels. @default "trivial" */
+  /** Loss of each reprojection error; width in pixels. @default "trivial" */
   loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } };
-  /** Used only while fewer than two cameras are held. @default "twoCameras" */
+  /** Gauge while fewer than two cameras are held. @default "twoCameras" */
   gauge?: "twoCameras" | "free";
-  /** Cameras that stay where they are, by index; missing entries are free. @default [] */
+  /** Cameras held fixed, by index; missing entries are free. @default [] */
   heldCameras?: readonly (boolean)[];
-  /** Points that stay where they are, by index; missing entries are free. @default [] */
+  /** Points held fixed, by index; missing entries are free. @default [] */
   heldPoints?: readonly (boolean)[];
-  /** Refine one factor for the focal lengths of each lens. @default false */
+  /** Refine a factor of the focal lengths, one per lens. @default false */
   refineFocal?: boolean;
-  /** Refine where the principal points are: one shift for each lens, pixels. @default false */
+  /** Refine the principal points: one shift per lens, pixels. @default false */
   refinePrincipalPoint?: boolean;
   /**
    * Refine the radial terms of each lens: k1 and k2 of Brown's model, k1 to k6 of the rational one, k1
@@ -289,7 +289,7 @@ export interface BundleOptions {
    * by the gauge. @default []
    */
   positionPriors?: readonly (PositionPrior | null)[];
-  /** The loss of the position priors; its width is in standard deviations. @default "trivial" */
+  /** Loss of the position priors; width in standard deviations. @default "trivial" */
   positionLoss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } };
 }
 
@@ -321,11 +321,11 @@ export interface Calibration {
   warnings: CalibrationWarning[];
 }
 
-/** Choices of `calibrate`. */
+/** Options of `calibrate`. */
 export interface CalibrationOptions {
-  /** The model of the lens. @default "brown" */
+  /** Lens model. @default "brown" */
   lens?: "brown" | "rational" | "fisheye" | "division";
-  /** At most so many steps of refinement. @default 200 */
+  /** Maximum number of refinement steps. @default 200 */
   maxIterations?: number;
 }
 
@@ -375,25 +375,25 @@ export interface Descriptors {
   data: Uint8Array | Float32Array;
 }
 
-/** Tests that an answer of a dense matcher must pass. */
+/** Tests of the disparities of a dense matcher. */
 export interface DisparityFilter {
   /**
-   * Percent by which the costs of all disparities two or more away from the best must be higher, 0 to
-   * 99; 0: no such test.
+   * Minimum percentage by which the costs of all disparities two or more away must exceed the best, 0 to
+   * 99; 0 disables this test.
    */
   uniquenessPercent?: number;
   /**
-   * The largest difference between the disparities seen from the left and from the right, pixels; none:
-   * no such test.
+   * Maximum difference between the disparities from the left and from the right, pixels; `None` disables
+   * this test.
    */
   leftRightMaxPx?: number | null;
-  /** Answers that hang together in fewer pixels than this are removed; 0 or 1: none. */
+  /** Minimum number of connected pixels: smaller sets are removed; 0 or 1 disables this test. */
   speckleSize?: number;
-  /** Neighbors whose disparities differ by no more than this hang together, pixels. */
+  /** Maximum difference of disparities between connected neighbors, pixels. */
   speckleRangePx?: number;
   /**
-   * The longest gap along a row or a column, pixels, that is closed by interpolation where the answers
-   * at its two ends hang together; 0: none.
+   * Maximum length of a gap along a row or column, pixels, to close by interpolation if the disparities
+   * at its ends are connected; 0 disables this.
    */
   maxGapPx?: number;
 }
@@ -427,56 +427,53 @@ export interface EssentialWithFocal {
 }
 
 /**
- * Options of feature detection. Every command and `PhotoOptions` start from the default; see
+ * Options of feature detection, with the defaults of all commands and of `PhotoOptions`; see
  * `MatchOptions` and `RansacOptions` for matches and models.
  */
 export interface FeatureOptions {
   /** RootSIFT. @default "rootSift" */
   kind?: "sift" | "rootSift" | "orb" | "harris";
-  /** Maximum number of features, the strongest; 0 means no limit. 8192. @default 8192 */
+  /** Maximum number of features; the strongest are kept. 0 means no limit. 8192. @default 8192 */
   maxFeatures?: number;
   /**
    * Minimum response of a feature, for gray values in [0, 1]; `None` for the default of the kind. SIFT:
-   * `contrastThreshold`, 0.02, which includes faint features. ORB: `fastThreshold`, 20/255. Harris: the
-   * share of the strongest response, `quality`, 0.01. @default null
+   * `contrastThreshold`, 0.02, which includes faint features. ORB: `fastThreshold`, 20/255. Harris:
+   * ratio to the strongest response, `quality`, 0.01. @default null
    */
   contrastThreshold?: number | null;
-  /**
-   * Take every direction to be 0, for cameras held upright. Harris' corners have none. False. @default
-   * false
-   */
+  /** Assume direction 0, for upright cameras. Harris corners have no direction. False. @default false */
   upright?: boolean;
   /**
-   * SIFT: photographs of up to this many pixels are also searched at twice their size; larger ones,
-   * which takes seconds, only if they have fewer than `maxFeatures` without; none if 0. 1.5 million.
+   * SIFT: images of up to this many pixels are also searched at twice their size; larger ones, for which
+   * this takes seconds, only if they have fewer than `maxFeatures` without; none if 0. 1.5 million.
    * @default 1500000
    */
   maxUpsampledPixels?: number;
   /**
    * SIFT: assumed blur of the input, pixels, 0 to half of `sigmaPx`. 0.5, as Lowe's; 0.3 gives more
-   * matches in sharp photographs, fewer where features are rare. @default 0.5
+   * matches in sharp images, fewer where features are rare. @default 0.5
    */
   inputBlurPx?: number;
-  /** SIFT: the blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. @default 1.6 */
+  /** SIFT: blur of the first layer of an octave, pixels of that octave, 0.8 to 4. 1.6. @default 1.6 */
   sigmaPx?: number;
-  /** SIFT: layers per octave in which extrema are looked for, 1 to 10. 3. @default 3 */
+  /** SIFT: number of layers per octave that are searched for extrema, 1 to 10. 3. @default 3 */
   layersPerOctave?: number;
-  /** SIFT: the largest ratio of the principal curvatures, > 1. 10. @default 10 */
+  /** SIFT: maximum ratio of the principal curvatures, > 1. 10. @default 10 */
   edgeThreshold?: number;
-  /** SIFT: maximum number of directions per place, ≥ 1; each makes a feature. 2. @default 2 */
+  /** SIFT: maximum number of directions per position, ≥ 1; each gives a feature. 2. @default 2 */
   maxOrientations?: number;
   /**
-   * SIFT: the share of the strongest direction's weight that a further one needs, in (0, 1]. 0.8.
-   * @default 0.800000011920929
+   * SIFT: minimum weight of a further direction, relative to the strongest, in (0, 1]. 0.8. @default
+   * 0.800000011920929
    */
   orientationPeakRatio?: number;
-  /** ORB: levels of the pyramid, 1 to 16. 8. @default 8 */
+  /** ORB: number of levels of the pyramid, 1 to 16. 8. @default 8 */
   numLevels?: number;
   /** ORB: ratio of the sizes of successive levels, above 1 and at most 2. 1.2. @default 1.2 */
   scaleFactor?: number;
-  /** Harris: the constant k of the measure, 0 to below 0.25. 0.04. @default 0.03999999910593033 */
+  /** Harris: constant k of the measure, 0 to below 0.25. 0.04. @default 0.03999999910593033 */
   harrisK?: number;
-  /** Harris: no two corners are closer than this, pixels; 0 allows neighbors. 8. @default 8 */
+  /** Harris: minimum distance between corners, pixels; 0 allows neighbors. 8. @default 8 */
   minDistancePx?: number;
   /** Harris: side of the square over which gradients are summed, pixels, 1 to 255. 3. @default 3 */
   tensorWindowPx?: number;
@@ -504,16 +501,13 @@ export interface FoundBoard {
 
 /** Options of `goodFeaturesToTrack`. */
 export interface GoodFeaturesOptions {
-  /** At most so many corners; 0 means no limit. @default 1000 */
+  /** Maximum number of corners; 0 means no limit. @default 1000 */
   maxCorners?: number;
-  /**
-   * Corners weaker than this share of the strongest are dropped, in (0, 1]. @default
-   * 0.009999999776482582
-   */
+  /** Minimum response relative to the strongest corner, in (0, 1]. @default 0.009999999776482582 */
   quality?: number;
-  /** No two corners are closer than this, pixels; 0 allows neighbors. @default 8 */
+  /** Minimum distance between corners, pixels; 0 allows neighbors. @default 8 */
   minDistancePx?: number;
-  /** The measure. @default "shiTomasi" */
+  /** Corner measure. @default "shiTomasi" */
   measure?: "shiTomasi" | { harris: number };
   /**
    * Options of the structure tensor. @default { border: "reflect101", derivative: "sobel3", scaling:
@@ -521,8 +515,8 @@ export interface GoodFeaturesOptions {
    */
   tensor?: StructureTensorOptions;
   /**
-   * With a grid and a limit, each cell first gives its share of the strongest; what the poor cells leave
-   * goes to the strongest of the rest. @default null
+   * With a grid and a limit, each cell first contributes an equal number of its strongest corners; cells
+   * with too few leave the remainder to the strongest of the rest. @default null
    */
   grid?: Grid | null;
 }
@@ -549,11 +543,11 @@ export interface GrayImage {
   data: Float32Array;
 }
 
-/** Cells of the image that share the corners out evenly. */
+/** Grid that distributes the corners evenly over the image. */
 export interface Grid {
-  /** Cells side by side, ≥ 1. */
+  /** Number of columns of cells, ≥ 1. */
   columns?: number;
-  /** Cells one above the other, ≥ 1. */
+  /** Number of rows of cells, ≥ 1. */
   rows?: number;
 }
 
@@ -632,9 +626,9 @@ export interface LeastMedianLine {
   numInliers: number;
 }
 
-/** Choices of `leastMedian`. */
+/** Options of `leastMedian`. */
 export interface LeastMedianOptions {
-  /** Samples drawn, ≥ 1. 500. @default 500 */
+  /** Number of samples, ≥ 1. 500. @default 500 */
   numSamples?: number;
   /** Equal seeds give equal results. 0. @default 0 */
   seed?: number;
@@ -660,22 +654,22 @@ export interface LmIteration {
   accepted: boolean;
 }
 
-/** When to stop, and how to start. */
+/** Options of the Levenberg–Marquardt solver. */
 export interface LmOptions {
   /** Maximum number of steps, including rejected ones. @default 50 */
   maxIterations?: number;
-  /** Converged when no component of the gradient is larger. @default 0.0000000001 */
+  /** Maximum gradient component at convergence. @default 0.0000000001 */
   gradientTolerance?: number;
-  /** Converged when a step is shorter than this times the parameters' length. @default 0.0000000001 */
+  /** Maximum step length at convergence, relative to the parameters' length. @default 0.0000000001 */
   stepTolerance?: number;
-  /** Converged when an accepted step lowers the cost by less than this fraction. @default 0.000000001 */
+  /** Maximum relative decrease of the cost by an accepted step at convergence. @default 0.000000001 */
   costTolerance?: number;
-  /** The first λ, relative to the diagonal of `JᵀJ`. @default 0.0001 */
+  /** Initial λ, relative to the diagonal of `JᵀJ`. @default 0.0001 */
   initialDamping?: number;
   /**
-   * Maximum number of steps in a row that raise the cost before the loop returns to the best place and
-   * tries smaller ones. 0, a cost that never rises, suits most problems; on pose graphs the full step
-   * first bends the trajectory and only the next one stretches it into place. @default 0
+   * Maximum number of steps in a row that raise the cost before the solver returns to the best
+   * parameters and tries smaller steps. 0, a cost that never rises, suits most problems; on pose graphs
+   * the full step first bends the trajectory and only the next one straightens it. @default 0
    */
   patience?: number;
 }
@@ -714,23 +708,23 @@ export interface MarkerOptions {
   maxHamming?: number | null;
   /** Width of the black border, bits; at least 1. @default 1 */
   borderBits?: number;
-  /** Minimum side, pixels; smaller ones than 1.5 pixels a bit are not found. @default 0 */
+  /** Minimum side, pixels; markers with less than 1.5 pixels per bit are never found. @default 0 */
   minSidePx?: number;
 }
 
-/** Which nearest neighbors count as matches. */
+/** Options of matching. */
 export interface MatchOptions {
   /**
-   * The nearest must be closer than this share of the second nearest, in (0, 1]; `None` leaves the test
-   * out. Lowe 2004, §7.1. @default 0.800000011920929
+   * Maximum ratio of the distances of the nearest and second nearest, in (0, 1]; `None` disables the
+   * test. Lowe 2004, §7.1. @default 0.800000011920929
    */
   maxRatio?: number | null;
   /** Require mutual nearest neighbors. @default true */
   mutual?: boolean;
-  /** The largest distance, ≥ 0; `None` for any. @default null */
+  /** Maximum distance, ≥ 0; `None` for any. @default null */
   maxDistance?: number | null;
   /**
-   * No feature of the second image in two matches: the closest stays. Mutual matches are unique already.
+   * Keep only the closest match of each feature of the second image. Mutual matches are unique anyway.
    * @default true
    */
   unique?: boolean;
@@ -797,13 +791,13 @@ export interface MultiViewProblemOptions {
   structure?: { cube: { halfSideM: number } } | { plane: { halfSideM: number } } | { corner: { halfSideM: number } };
   /** Positions of the cameras. @default { arc: { radiusM: 5, spanRad: 1 } } */
   path?: { arc: { radiusM: number; spanRad: number } } | { line: { distanceM: number; spacingM: number } };
-  /** Part of the observations that are made, 0 to 1; 1 for every point in every picture. @default 1 */
+  /** Fraction of the observations made, 0 to 1; 1 for every point in every image. @default 1 */
   visibleFraction?: number;
-  /** Standard deviation of the Gaussian error of each coordinate of each pixel, pixels. @default 0 */
+  /** Standard deviation of the Gaussian noise of each pixel coordinate, pixels. @default 0 */
   noisePx?: number;
-  /** Part of the observations whose pixel is wrong, 0 to 1. @default 0 */
+  /** Fraction of the observations with a wrong pixel, 0 to 1. @default 0 */
   outlierFraction?: number;
-  /** Everything random depends on it alone. @default 0 */
+  /** Seed of all randomness. @default 0 */
   seed?: number;
 }
 
@@ -839,11 +833,11 @@ export interface OrbOptions {
   maxFeatures?: number;
   /** Ratio of the sizes of successive levels, above 1 and at most 2. @default 1.2 */
   scaleFactor?: number;
-  /** Levels of the pyramid, 1 to 16. @default 8 */
+  /** Number of levels of the pyramid, 1 to 16. @default 8 */
   numLevels?: number;
-  /** Minimum contrast of nine neighbors in a row, for gray values in [0, 1]. @default 0.0784313753247261 */
+  /** Minimum contrast of nine consecutive pixels, for gray values in [0, 1]. @default 0.0784313753247261 */
   fastThreshold?: number;
-  /** Take every direction to be 0: for cameras held upright. @default false */
+  /** Assume direction 0, for upright cameras. @default false */
   upright?: boolean;
 }
 
@@ -870,11 +864,11 @@ export interface PairMatchesLike {
 /** Options of `photoFeatures` and `matchFeatures`. */
 export interface PhotoOptions {
   /**
-   * RootSIFT, up to 8192 features, faint ones too. @default { contrastThreshold: null, edgeThreshold:
-   * 10, harrisK: 0.03999999910593033, inputBlurPx: 0.5, kind: "rootSift", layersPerOctave: 3,
-   * maxFeatures: 8192, maxOrientations: 2, maxUpsampledPixels: 1500000, minDistancePx: 8, numLevels: 8,
-   * orientationPeakRatio: 0.800000011920929, patchPx: 11, scaleFactor: 1.2, sigmaPx: 1.6,
-   * tensorWindowPx: 3, upright: false }
+   * RootSIFT, up to 8192 features, including faint ones. @default { contrastThreshold: null,
+   * edgeThreshold: 10, harrisK: 0.03999999910593033, inputBlurPx: 0.5, kind: "rootSift",
+   * layersPerOctave: 3, maxFeatures: 8192, maxOrientations: 2, maxUpsampledPixels: 1500000,
+   * minDistancePx: 8, numLevels: 8, orientationPeakRatio: 0.800000011920929, patchPx: 11, scaleFactor:
+   * 1.2, sigmaPx: 1.6, tensorWindowPx: 3, upright: false }
    */
   features?: FeatureOptions;
   /**
@@ -883,13 +877,13 @@ export interface PhotoOptions {
    */
   matching?: MatchOptions;
   /**
-   * Number of following photographs to match each one with; 0 for all. For frames in order of time.
-   * @default 0
+   * Number of following images to match each one with; 0 for all. For frames in order of time. @default
+   * 0
    */
   neighbors?: number;
   /**
-   * Whether the least ambiguous matches of a pair come first, as PROSAC wants them, rather than in the
-   * order of the first photograph's keypoints. False. @default false
+   * Sort the matches of a pair by ambiguity, as PROSAC needs, rather than by the keypoints of the first
+   * image. False. @default false
    */
   bestFirst?: boolean;
 }
@@ -1006,32 +1000,29 @@ export interface PosedCameraLike {
   camFromWorld: RigidTransformLike;
 }
 
-/**
- * A camera position measured otherwise, such as by GPS: see `localFromGeodetic` for converting its
- * degrees.
- */
+/** Prior of a camera position, such as from GPS; `localFromGeodetic` converts degrees. */
 export interface PositionPrior {
-  /** The camera's center in the world. */
+  /** Camera center in the world. */
   centerInWorld?: ArrayLike<number>;
-  /** Standard deviation along each axis of the world, in its unit. */
+  /** Standard deviation along each world axis, in world units. */
   sigma?: ArrayLike<number>;
 }
 
 /** Options of `Ransac`. */
 export interface RansacOptions {
   /**
-   * The threshold T: a datum nearer than this to a model is an inlier. Pixels, > 0; of an estimator of
-   * one's own, the unit of its errors. 1. @default 1
+   * Threshold T: a data point closer to a model is an inlier. Pixels, > 0; for a custom estimator, the
+   * unit of its errors. 1. @default 1
    */
   maxErrorPx?: number;
   /** Source of the threshold. Given. @default "given" */
   threshold?: "given" | "noise";
-  /** The probability that at least one sample is free of outliers, in (0, 1). 0.999. @default 0.999 */
+  /** Probability that at least one sample is free of outliers, in (0, 1). 0.999. @default 0.999 */
   confidence?: number;
   /**
-   * Minimum number of samples, unless `maxIterations` is lower. 200: the number required by the inlier
-   * ratio takes every sample without outliers for a good start, but with noise only some of them lead to
-   * the best model. @default 200
+   * Minimum number of samples, unless `maxIterations` is lower. 200, since the number required by the
+   * inlier ratio assumes that any outlier-free sample leads to the best model, but with noise only some
+   * do. @default 200
    */
   minIterations?: number;
   /** Maximum number of samples, ≥ 1. 10 000. @default 10000 */
@@ -1043,17 +1034,19 @@ export interface RansacOptions {
   /** Scoring function. MSAC. @default "msac" */
   score?: "msac" | "inlierCount";
   /**
-   * Whether a promising model is improved from its inliers at once, and the best one at the end. True.
+   * Whether promising models are improved from their inliers at once, and the best one at the end. True.
    * @default true
    */
   localOptimization?: boolean;
-  /** Rounds of "find the inliers, fit to them" in one local optimization, 0 as good as 1. 4. @default 4 */
+  /**
+   * Number of rounds of finding and fitting inliers per local optimization; 0 acts like 1. 4. @default 4
+   */
   innerIterations?: number;
   /** Formula for the sufficient number of samples. Without replacement. @default "withoutReplacement" */
   budget?: "withReplacement" | "withoutReplacement";
   /**
-   * Whether every model is compared with every datum, so that a figure can show its score. Otherwise a
-   * model is dropped as soon as it cannot win. False. @default false
+   * Whether every model is scored on all data, so that a figure can show its score. Otherwise scoring
+   * stops as soon as a model cannot win. False. @default false
    */
   scoreEveryTrial?: boolean;
 }
@@ -1144,18 +1137,18 @@ export interface RectifiedImages {
   rectification: Rectification;
 }
 
-/** Choices of `rectifyCalibrated`. */
+/** Options of `rectifyCalibrated`. */
 export interface RectifyOptions {
   /**
-   * 0: zoomed in until every pixel of the results is seen by the camera. 1: zoomed out until every pixel
-   * of the photographs is shown. Between: in between. @default 0
+   * Zoom. 0: zoomed in until the camera covers every pixel of the results. 1: zoomed out until every
+   * pixel of the images is visible. Values between interpolate. @default 0
    */
   alpha?: number;
-  /** Size of the results, pixels; none: that of the photographs. @default null */
+  /** Size of the results, pixels; `None` for that of the images. @default null */
   size?: ArrayLike<number> | null;
   /**
    * Whether both results have the same principal point, so that points at infinity have disparity 0.
-   * Otherwise each shows what its own camera sees best. @default true
+   * Otherwise each is centered on the view of its own camera. @default true
    */
   zeroDisparityAtInfinity?: boolean;
 }
@@ -1164,9 +1157,9 @@ export interface RectifyOptions {
 export interface RefineOptions {
   /** Half the side of the window, pixels, 1 to 50: the window is `2 half + 1` wide. @default 5 */
   halfWindow?: number;
-  /** At most so many steps. @default 40 */
+  /** Maximum number of steps. @default 40 */
   maxIterations?: number;
-  /** Done when a step is shorter than this, pixels. @default 0.001 */
+  /** Step length at which the refinement ends, pixels. @default 0.001 */
   tolerancePx?: number;
 }
 
@@ -1279,36 +1272,36 @@ export interface SfmImageLike {
 /** Options of `reconstruct`. */
 export interface SfmOptions {
   /**
-   * RANSAC for the essential matrix of a pair, and, with a threshold and a sampler of its own, for
-   * registering an image. Its threshold is 2 pixels, and its seed is ignored. @default { budget:
-   * "withoutReplacement", confidence: 0.999, innerIterations: 4, localOptimization: true, maxErrorPx: 2,
-   * maxIterations: 10000, minIterations: 200, sampler: "uniform", score: "msac", scoreEveryTrial: false,
-   * seed: 0, threshold: "given" }
+   * RANSAC for the essential matrix of a pair, and, with its own threshold and sampler, for registering
+   * an image. The threshold is 2 pixels; the seed is ignored. @default { budget: "withoutReplacement",
+   * confidence: 0.999, innerIterations: 4, localOptimization: true, maxErrorPx: 2, maxIterations: 10000,
+   * minIterations: 200, sampler: "uniform", score: "msac", scoreEveryTrial: false, seed: 0, threshold:
+   * "given" }
    */
   ransac?: RansacOptions;
-  /** Largest reprojection error when an image is registered, pixels. 6. @default 6 */
+  /** Maximum reprojection error when an image is registered, pixels. 6. @default 6 */
   maxRegistrationErrorPx?: number;
-  /** Largest reprojection error of an observation that is kept, pixels. 4. @default 4 */
+  /** Maximum reprojection error of an observation, pixels. 4. @default 4 */
   maxReprojectionErrorPx?: number;
-  /** Fewest matches that connect two images, and fewest points that register one. 15. @default 15 */
+  /** Minimum number of matches to connect two images, and of points to register one. 15. @default 15 */
   minNumInliers?: number;
-  /** Smallest angle under which a point must be seen, degrees. 1.5. @default 1.5 */
+  /** Minimum triangulation angle of a point, degrees. 1.5. @default 1.5 */
   minAngleDeg?: number;
   /**
-   * Median angle that the two first images should have, degrees; halved, again and again, if no pair has
-   * it. 16. @default 16
+   * Median triangulation angle of the initial pair, degrees; halved repeatedly until a pair has it. 16.
+   * @default 16
    */
   minStartAngleDeg?: number;
-  /** Fewest images that must see a point which is kept in the end. 2. @default 2 */
+  /** Minimum number of images that see a point in the result. 2. @default 2 */
   minTrackLength?: number;
-  /** Refine one factor for the focal lengths of each lens. False. @default false */
+  /** Refine a factor of the focal lengths, one per lens. False. @default false */
   refineFocal?: boolean;
   /**
-   * Refine where the principal points are, one shift for each lens. False: turning a camera looks much
-   * the same. @default false
+   * Refine the principal points, one shift per lens. False, since a shift is hard to distinguish from a
+   * rotation. @default false
    */
   refinePrincipalPoint?: boolean;
-  /** Refine the radial terms of each lens, as `refineDistortion` has them. False. @default false */
+  /** Refine the radial terms of each lens, as by `refineDistortion`. False. @default false */
   refineDistortion?: boolean;
   /** Refine the tangential terms p1 and p2 of each lens that has them. False. @default false */
   refineTangential?: boolean;
@@ -1349,106 +1342,106 @@ export interface ShiftSurface {
 }
 
 /**
- * Options of `detectSift`. The defaults are Lowe's, as OpenCV takes them, but for the blur that the
- * image is assumed to have: 0.3 in place of 0.5 pixels. The first octave is then blurred more, and
- * fewer of the features are too small to be seen from further away.
+ * Options of `detectSift`. The defaults are Lowe's, as in OpenCV, except for the assumed blur of the
+ * image: 0.3 instead of 0.5 pixels. The first octave is then blurred more, and fewer of the features
+ * are too small to be seen from farther away.
  */
 export interface SiftOptions {
-  /** At most so many features, the strongest; 0 means no limit. @default 0 */
+  /** Maximum number of features; the strongest are kept. 0 means no limit. @default 0 */
   maxFeatures?: number;
-  /** Layers per octave in which extrema are looked for, 1 to 10. @default 3 */
+  /** Number of layers per octave that are searched for extrema, 1 to 10. @default 3 */
   layersPerOctave?: number;
   /** Blur of the first layer of an octave, pixels of that octave, 0.8 to 4. @default 1.6 */
   sigmaPx?: number;
-  /** Blur that the image is assumed to have, pixels, 0 to `sigma_px / 2`. @default 0.3 */
+  /** Assumed blur of the image, pixels, 0 to `sigma_px / 2`. @default 0.3 */
   inputBlurPx?: number;
   /**
-   * Start at twice the image's size (octave −1): more and smaller features, four times the work.
-   * @default true
+   * Start at twice the image's size (octave −1): gives more and smaller features, at four times the
+   * cost. @default true
    */
   upsample?: boolean;
   /**
-   * Smallest answer of an extremum times the layers per octave, for gray values in [0, 1]. @default
+   * Minimum response of an extremum times the layers per octave, for gray values in [0, 1]. @default
    * 0.03999999910593033
    */
   contrastThreshold?: number;
-  /** Largest ratio of the principal curvatures, > 1. @default 10 */
+  /** Maximum ratio of the principal curvatures, > 1. @default 10 */
   edgeThreshold?: number;
-  /** At most so many directions per place, ≥ 1; each makes a feature. @default 2 */
+  /** Maximum number of directions per position, ≥ 1; each gives a feature. @default 2 */
   maxOrientations?: number;
   /**
-   * A further direction needs this share of the strongest one's weight, in (0, 1]. @default
+   * Minimum weight of a further direction, relative to the strongest, in (0, 1]. @default
    * 0.800000011920929
    */
   orientationPeakRatio?: number;
-  /** Take every direction to be 0: for cameras held upright. @default false */
+  /** Assume direction 0, for upright cameras. @default false */
   upright?: boolean;
   /** Scaling of descriptors. @default "l2" */
   normalization?: "l2" | "root";
 }
 
-/** Dense disparity of a rectified pair by comparing square windows. */
+/** Dense disparity of a rectified pair by block matching. */
 export interface StereoBm {
-  /** The smallest disparity looked for, pixels; negative for cameras that converge. @default 0 */
+  /** Minimum disparity, pixels; negative for cameras that converge. @default 0 */
   minDisparityPx?: number;
-  /** Number of disparities, from the smallest on; 1 to 4096. @default 64 */
+  /** Number of disparities from the minimum upwards; 1 to 4096. @default 64 */
   numDisparities?: number;
   /**
-   * Side of the window, pixels; odd, at most the picture's shorter side. The sums must fit 15 bits: `2
-   * prefilter_cap window² ≤ 32766`, so at most 21 with a cap of 31. @default 15
+   * Side of the window, pixels; odd, at most the shorter side of the image. The sums must fit 15 bits:
+   * `2 prefilter_cap window² ≤ 32766`, so at most 21 with a cap of 31. @default 15
    */
   windowPx?: number;
   /** Prefilter. @default "xSobel" */
   prefilter?: "xSobel" | "localMean";
-  /** Pre-filtered values are limited to plus or minus this, 1 to 63. @default 31 */
+  /** Bound of the absolute pre-filtered values, 1 to 63. @default 31 */
   prefilterCap?: number;
   /**
-   * The smallest mean, per pixel of the window, of the pre-filtered left values' magnitudes; 0: no such
-   * test. @default 0.5
+   * Minimum mean magnitude of the pre-filtered left values in the window; 0 disables this test. @default
+   * 0.5
    */
   minTexture?: number;
   /**
-   * Which answers are kept. @default { leftRightMaxPx: 1, maxGapPx: 0, speckleRangePx: 2, speckleSize:
-   * 100, uniquenessPercent: 10 }
+   * Filter of the disparities. @default { leftRightMaxPx: 1, maxGapPx: 0, speckleRangePx: 2,
+   * speckleSize: 100, uniquenessPercent: 10 }
    */
   filter?: DisparityFilter;
 }
 
 /** Dense disparity of a rectified pair by semi-global matching. */
 export interface StereoSgm {
-  /** The smallest disparity looked for, pixels; negative for cameras that converge. @default 0 */
+  /** Minimum disparity, pixels; negative for cameras that converge. @default 0 */
   minDisparityPx?: number;
-  /** Number of disparities, from the smallest on; 1 to 4096. @default 64 */
+  /** Number of disparities from the minimum upwards; 1 to 4096. @default 64 */
   numDisparities?: number;
   /** Matching cost. @default "both" */
   cost?: "census" | "birchfieldTomasi" | "both";
-  /** The largest cost of a difference of gray values, 1 to 63. @default 30 */
+  /** Maximum cost of a difference of gray values, 1 to 63. @default 30 */
   grayCap?: number;
   /** Directions. @default "eight" */
   paths?: "four" | "five" | "eight";
-  /** P1: the penalty for a change of disparity by one between neighbors. @default 20 */
+  /** P1: penalty for a change of disparity by one between neighbors. @default 20 */
   smallStepPenalty?: number;
-  /** P2: the penalty for a larger change; at least P1, at most 150. @default 100 */
+  /** P2: penalty for a larger change; at least P1, at most 150. @default 100 */
   largeStepPenalty?: number;
   /**
-   * The difference of gray values between two neighbors that halves P2 (never below P1), since the edges
-   * of objects are mostly edges of the image. 0: P2 is the same everywhere. @default 10
+   * Difference of gray values between two neighbors that halves P2 (never below P1), since edges of
+   * objects are mostly edges of the image. 0: P2 is constant. @default 10
    */
   edgeGray?: number;
   /**
-   * Which answers are kept. @default { leftRightMaxPx: 1, maxGapPx: 16, speckleRangePx: 2, speckleSize:
-   * 100, uniquenessPercent: 3 }
+   * Filter of the disparities. @default { leftRightMaxPx: 1, maxGapPx: 16, speckleRangePx: 2,
+   * speckleSize: 100, uniquenessPercent: 3 }
    */
   filter?: DisparityFilter;
 }
 
 /** Options of a structure tensor. */
 export interface StructureTensorOptions {
-  /** The filter for the derivatives. @default "sobel3" */
+  /** Derivative filter. @default "sobel3" */
   derivative?: "sobel3" | "sobel5" | "scharr";
-  /** The weights of the neighbors. @default { box: 3 } */
+  /** Weights of the neighbors. @default { box: 3 } */
   window?: { box: number } | { gaussian: number };
-  /** The units. @default "textbook" */
+  /** Scaling. @default "textbook" */
   scaling?: "textbook" | "openCv";
   /** Border of the image; derivatives beyond a constant border count as 0. @default "reflect101" */
   border?: "replicate" | "reflect101" | { constant: number };
@@ -1458,20 +1451,20 @@ export interface StructureTensorOptions {
 export interface TrackOptions {
   /** Half the side of the window, pixels, 1 to 50. @default 10 */
   halfWindow?: number;
-  /** Levels of the pyramid, 1 to 12; each doubles the motion that can be followed. @default 4 */
+  /** Number of levels of the pyramid, 1 to 12; each doubles the maximum motion. @default 4 */
   numLevels?: number;
   /** Maximum number of steps per level, ≥ 1. @default 30 */
   maxIterations?: number;
-  /** Done when a step is shorter than this, pixels, > 0. @default 0.01 */
+  /** Step length at which the iteration ends, pixels, > 0. @default 0.01 */
   tolerancePx?: number;
   /**
-   * Minimum of the smaller eigenvalue per pixel, for slopes of gray values in [0, 1] per pixel, squared;
-   * flatter windows are lost. @default 0.000001
+   * Minimum of the smaller eigenvalue per pixel, for squared gradients of gray values in [0, 1] per
+   * pixel; points with flatter windows are lost. @default 0.000001
    */
   minEigenvalue?: number;
   /**
-   * Following back must end within this distance of the start, pixels; `None` leaves the check out.
-   * @default 1
+   * Maximum distance between a point and its position when tracked back, pixels; `None` disables the
+   * check. @default 1
    */
   maxForwardBackwardPx?: number | null;
 }
@@ -1488,27 +1481,26 @@ export interface Tracks {
   forwardBackwardPx: Float64Array;
 }
 
-/** Options of the choice among models of two views. */
+/** Options of the two-view model choice. */
 export interface TwoViewOptions {
   /**
-   * For each of the models that are tried. H and turns, which have to fit in two dimensions, are given
-   * 1.25 times its threshold, by the Sampson error. `ThresholdKind::Noise` is that of F, which needs no
-   * intrinsics, for all of them. @default { budget: "withoutReplacement", confidence: 0.999,
+   * Options for each model that is tried. For H and rotations the threshold is 1.25 times as large, as
+   * their Sampson errors have two dimensions. With `ThresholdKind::Noise` all models use the threshold
+   * of F, which needs no intrinsics. @default { budget: "withoutReplacement", confidence: 0.999,
    * innerIterations: 4, localOptimization: true, maxErrorPx: 1, maxIterations: 10000, minIterations:
    * 200, sampler: "uniform", score: "msac", scoreEveryTrial: false, seed: 0, threshold: "given" }
    */
   ransac?: RansacOptions;
-  /** Fewer different inliers than this mean `Configuration::Degenerate`. 15. @default 15 */
+  /**
+   * Minimum number of unique inliers; otherwise the pair is `Configuration::Degenerate`. 15. @default 15
+   */
   minNumInliers?: number;
   /**
-   * A homography that explains at least this share of the epipolar inliers means a plane or a turn.
-   * Above 1 nothing does. 0.8. @default 0.8
+   * Minimum fraction of epipolar inliers that a homography must explain for the scene to count as a
+   * plane or pure rotation. Above 1 none does. 0.8. @default 0.8
    */
   maxHomographyShare?: number;
-  /**
-   * E is preferred to F if it has at least this share of F's inliers. A share above 1 asks for more of
-   * them than F has. 0.95. @default 0.95
-   */
+  /** Minimum ratio of E's inliers to F's for E to be preferred. 0.95. @default 0.95 */
   minEssentialShare?: number;
 }
 
@@ -1530,19 +1522,19 @@ export interface TwoViewProblem {
 
 /** Options of a `TwoViewProblem`. */
 export interface TwoViewProblemOptions {
-  /** Number of matches, inliers and outliers together. @default 100 */
+  /** Number of matches, including outliers. @default 100 */
   numPoints?: number;
   /** Structure of the points, around the world's origin. @default { cube: { halfSideM: 1 } } */
   structure?: { cube: { halfSideM: number } } | { plane: { halfSideM: number } } | { corner: { halfSideM: number } };
-  /** Distance between the camera centers, meters; 0 for a camera that only turns. @default 1 */
+  /** Distance between the camera centers, meters; 0 for a pure rotation. @default 1 */
   baselineM?: number;
   /** Distance of the first camera from the world's origin, meters. @default 5 */
   distanceM?: number;
-  /** Standard deviation of the Gaussian error of each coordinate of each pixel, pixels. @default 0 */
+  /** Standard deviation of the Gaussian noise of each pixel coordinate, pixels. @default 0 */
   noisePx?: number;
-  /** Part of the matches whose second pixel is wrong, 0 to 1. @default 0 */
+  /** Fraction of the matches with a wrong second pixel, 0 to 1. @default 0 */
   outlierFraction?: number;
-  /** Everything random depends on it alone. @default 0 */
+  /** Seed of all randomness. @default 0 */
   seed?: number;
 }
 
@@ -1566,16 +1558,16 @@ export interface TwoViewReconstruction {
   report: LmReport;
 }
 
-/** Which points of two views to keep, and how to refine them. */
+/** Options of `twoViewReconstruction`. */
 export interface TwoViewReconstructionOptions {
   /** Minimum triangulation angle, radians, ≥ 0. @default 0.008726646259971648 */
   minAngleRad?: number;
   /** Maximum reprojection error of a point after the refinement, pixels, > 0. @default 4 */
   maxErrorPx?: number;
-  /** Fewer points than this are no reconstruction. @default 15 */
+  /** Minimum number of points of a reconstruction. @default 15 */
   minNumPoints?: number;
   /**
-   * The refinement of both cameras' motion and all points. @default { gauge: "twoCameras", heldCameras:
+   * Options of the bundle adjustment of motion and points. @default { gauge: "twoCameras", heldCameras:
    * [], heldPoints: [], lm: { costTolerance: 0.000000001, gradientTolerance: 0.0000000001,
    * initialDamping: 0.0001, maxIterations: 50, patience: 0, stepTolerance: 0.0000000001 }, loss: {
    * huber: { width: 2 } }, positionLoss: "trivial", positionPriors: [], refineDistortion: false,

@@ -252,7 +252,7 @@ fn cameras_that_do_not_fit_get_a_sentence() {
         // warning.
         let output = epipole(&[command, path(&a), d, "--camera", path(&file)]);
         let told = String::from_utf8(output.stderr).unwrap();
-        assert!(told.contains("is used for 1 of 2 photographs"), "{told}");
+        assert!(told.contains("is used for 1 of 2 images"), "{told}");
     }
     let folds = Camera {
         lens: Lens::from_coefficients(LensKind::Fisheye, &[-3.0, 0.0, 0.0, 0.0]).unwrap(),

@@ -118,7 +118,7 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     arguments.push(path(&small));
     let output = epipole(&arguments);
     let told = String::from_utf8(output.stderr.clone()).unwrap();
-    assert!(told.contains("is used for 5 of 6 photographs"), "{told}");
+    assert!(told.contains("is used for 5 of 6 images"), "{told}");
     assert!(parse(&output)["num_registered"].as_u64().unwrap() >= 5);
 }
 

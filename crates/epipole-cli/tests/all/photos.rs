@@ -141,7 +141,7 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
         path(&result),
     ]);
     let told = String::from_utf8(told.stderr).unwrap();
-    assert!(told.contains("is used for 1 of 2 photographs"), "{told}");
+    assert!(told.contains("is used for 1 of 2 images"), "{told}");
     assert!(
         told.contains("is upright, and its file has no orientation"),
         "{told}"

@@ -176,7 +176,7 @@ fn every_step_of_a_reconstruction_can_be_set() {
     std::fs::remove_dir_all(&out).unwrap();
     let arguments = ["sfm", path(&photos), "--k", &k, "-o", path(&out)];
     let many = [&arguments[..], &["--min-inliers", "100000"]].concat();
-    fails(&folder, &many, 1, "no two photographs");
+    fails(&folder, &many, 1, "no two images");
     let wrong = [&arguments[..], &["--min-angle-deg", "0"]].concat();
     fails(&folder, &wrong, 2, "--min-angle-deg");
 }
