@@ -67,12 +67,12 @@ class NoConsensusError(Error):
 
 @final
 class Threads:
-    """Block with a number of threads, from `epipole.threads`."""
+    """Block with a number of threads, created by `epipole.threads`."""
     def __enter__(self, /) -> None: ...
     def __exit__(self, /, *exception: object) -> None: ...
 
 def threads(count: int) -> Threads:
-    """Limits the threads of calls inside a `with` block, for the current thread of Python.
+    """Limits the number of threads for calls inside a `with` block, in the current Python thread.
 
     Results do not depend on the number of threads.
 
@@ -88,9 +88,9 @@ def threads(count: int) -> Threads:
     Raises
     ------
     ValueError
-        ``count`` outside 1 to 1024.
+        If ``count`` is outside 1 to 1024.
     OSError
-        System that starts no more threads.
+        If the system cannot start more threads.
 
     Examples
     --------
@@ -99,10 +99,11 @@ def threads(count: int) -> Threads:
     1
     """
 def num_threads() -> int:
-    """Number of threads that calls use.
+    """Returns the number of threads that calls use.
 
     Returns
     -------
     int
-        Of the enclosing `epipole.threads`, else `RAYON_NUM_THREADS`, else the processors.
+        Set by the enclosing `epipole.threads`, else by `RAYON_NUM_THREADS`, else by the number of
+        cores.
     """

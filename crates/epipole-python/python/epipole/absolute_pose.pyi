@@ -37,7 +37,7 @@ class AbsolutePoseWithFocal:
     focal_px
         Focal length, pixels.
     focal_std_px
-        Standard deviation of the focal length, pixels; None if it makes no difference.
+        Standard deviation of the focal length, pixels; None if the focal length has no effect.
     """
     def __new__(
         cls,
@@ -53,7 +53,7 @@ class AbsolutePoseWithFocal:
         """Focal length, pixels."""
     @property
     def focal_std_px(self) -> float | None:
-        """Standard deviation of the focal length, pixels; None if it makes no difference."""
+        """Standard deviation of the focal length, pixels; None if the focal length has no effect."""
     def __eq__(self, other: object, /) -> bool: ...
     def tells_focal(self) -> bool:
         """Whether the points determine the focal length."""
@@ -67,7 +67,7 @@ def estimate_absolute_pose(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[RigidTransform]:
-    """Pose of a calibrated camera from points with outliers, by RANSAC.
+    """Estimates the pose of a calibrated camera from points with outliers, by RANSAC.
 
     Parameters
     ----------
@@ -76,9 +76,9 @@ def estimate_absolute_pose(
         Where the camera sees the points.
     camera : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -88,11 +88,11 @@ def estimate_absolute_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches.
+        If there are fewer than 4 different matches.
     epipole.NoConsensusError
-        No pose with 3 inliers.
+        If no pose has 3 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_absolute_pose_and_focal(
     points_in_world: ArrayLike,
@@ -102,7 +102,7 @@ def estimate_absolute_pose_and_focal(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[AbsolutePoseWithFocal]:
-    """Pose and focal length of a camera from points with outliers, by RANSAC.
+    """Estimates pose and focal length of a camera from points with outliers, by RANSAC.
 
     Parameters
     ----------
@@ -112,9 +112,9 @@ def estimate_absolute_pose_and_focal(
     principal : array_like, shape (2,)
         Principal point, pixels.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -124,14 +124,14 @@ def estimate_absolute_pose_and_focal(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 5 different matches.
+        If there are fewer than 5 different matches.
     epipole.NoConsensusError
-        No pose with 4 inliers.
+        If no pose has 4 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def pose_p3p(rays: ArrayLike, points_in_world: ArrayLike) -> list[RigidTransform]:
-    """Poses of three rays and their points.
+    """Computes the poses from three rays and their points.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def pose_p4pf(
     points_in_world: ArrayLike,
     principal: ArrayLike,
 ) -> list[AbsolutePoseWithFocal]:
-    """Poses and focal lengths of four points.
+    """Computes the poses and focal lengths from four points.
 
     Parameters
     ----------
@@ -169,12 +169,12 @@ def pose_dlt(
     pixels: ArrayLike,
     intrinsics: Intrinsics,
 ) -> RigidTransform:
-    """Pose by linear least squares (DLT), without outliers.
+    """Computes a pose by linear least squares (DLT), without outliers.
 
     Parameters
     ----------
     points_in_world : array_like, shape (N, 3)
-        N >= 6, not in a plane.
+        N >= 6, not on a plane.
     pixels : array_like, shape (N, 2)
     intrinsics : Intrinsics
 
@@ -186,16 +186,16 @@ def pose_dlt(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 6 points.
+        If there are fewer than 6 points.
     epipole.DegenerateError
-        Points on a plane, or otherwise critical.
+        If the points lie on a plane, or are otherwise degenerate.
     """
 def fit_absolute_pose(
     points_in_world: ArrayLike,
     pixels: ArrayLike,
     camera: Camera,
 ) -> RigidTransform:
-    """Pose with the least reprojection error, without outliers.
+    """Computes the pose with the least reprojection error, without outliers.
 
     Parameters
     ----------
@@ -211,10 +211,10 @@ def fit_absolute_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 points.
+        If there are fewer than 4 points.
     epipole.DegenerateError
-        Points on one line, no pose with all of them in front of the camera, or a pixel without a
-        ray.
+        If the points lie on a line, no pose has all of them in front of the camera, or a pixel has
+        no ray.
     """
 def find_flipped_pose(
     cam_from_world: RigidTransform,
@@ -222,12 +222,12 @@ def find_flipped_pose(
     pixels: ArrayLike,
     camera: Camera,
 ) -> RigidTransform | None:
-    """Second pose that explains a plane nearly as well, if there is one.
+    """Finds a second pose that explains a plane nearly as well.
 
     Parameters
     ----------
     cam_from_world : RigidTransform
-        Pose found.
+        Known pose.
     points_in_world : array_like, shape (N, 3)
     pixels : array_like, shape (N, 2)
     camera : Camera
@@ -239,9 +239,9 @@ def find_flipped_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 points in front of the flipped camera.
+        If fewer than 3 points are in front of the flipped camera.
     epipole.DegenerateError
-        Pixel without a ray.
+        If a pixel has no ray.
     """
 def refine_absolute_pose(
     cam_from_world: RigidTransform,
@@ -250,7 +250,7 @@ def refine_absolute_pose(
     camera: Camera,
     loss: str | Mapping[str, Any] | None = None,
 ) -> RigidTransform:
-    """Pose refined by the reprojection errors.
+    """Refines a pose by minimizing the reprojection errors.
 
     Parameters
     ----------
@@ -259,7 +259,7 @@ def refine_absolute_pose(
     pixels : array_like, shape (N, 2)
     camera : Camera
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 
     Returns
     -------
@@ -269,18 +269,18 @@ def refine_absolute_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 points in front of the camera.
+        If fewer than 3 points are in front of the camera.
     epipole.DegenerateError
-        Pixel without a ray.
+        If a pixel has no ray.
     ValueError
-        Loss width not above 0.
+        If the loss width is not above 0.
     """
 def reprojection_error_px(
     camera: PosedCamera,
     point_in_world: ArrayLike,
     pixel: ArrayLike,
 ) -> Any:
-    """Distances between projected points and pixels.
+    """Computes the distances between projected points and pixels.
 
     Parameters
     ----------

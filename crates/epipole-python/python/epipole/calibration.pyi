@@ -36,7 +36,7 @@ __all__ = [
 
 @final
 class Board:
-    """Flat board with marks at known places: x along its columns, y along its rows, z = 0.
+    """Flat board with marks at known positions: x along its columns, y along its rows, z = 0.
 
     Parameters
     ----------
@@ -45,17 +45,17 @@ class Board:
         ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}`` or
         ``{"april_grid": {"spacing": 0.3}}``.
     columns, rows : int
-        Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks in a
-        row and rows of a grid of circles.
+        Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks per
+        row and rows of disks in a circle grid.
     square_m : float
-        Side of a square or a tag, or distance of two rows of circles, meters.
+        Side of a square or tag, or distance between two rows of circles, meters.
 
     Raises
     ------
     ValueError
-        Fewer than 3 or more than 1000 columns or rows (at least 2 columns of shifted circles, one
-        tag of an AprilGrid), ``square_m`` not above 0, a size of markers out of range, or more
-        markers than the dictionary has.
+        If there are fewer than 3 or more than 1000 columns or rows (minimum: 2 columns for shifted
+        circles, one tag for an AprilGrid), ``square_m`` is not above 0, a marker size is out of
+        range, or the dictionary has too few markers.
 
     Examples
     --------
@@ -85,33 +85,33 @@ class Board:
         """Rows, as in the constructor."""
     @property
     def mark_columns(self) -> int:
-        """Marks in a row: inner corners of squares, corners of tags, or disks."""
+        """Number of marks per row: inner corners of squares, corners of tags, or disks."""
     @property
     def mark_rows(self) -> int:
-        """Rows of marks."""
+        """Number of rows of marks."""
     @property
     def square_m(self) -> float:
-        """Side of a square or a tag, or distance of two rows of circles, meters."""
+        """Side of a square or tag, or distance between two rows of circles, meters."""
     @property
     def num_marks(self) -> int:
         """Number of marks."""
     def mark(self, index: int) -> NDArray[np.float64]:
-        """Place of a mark on the board, meters, shape (2,). Marks are counted row by row.
+        """Returns the position of a mark on the board, meters, shape (2,). Marks are counted by row.
 
         Parameters
         ----------
         index : int
-            Number of the mark, from 0.
+            Index of the mark, from 0.
 
         Raises
         ------
         IndexError
-            Mark that the board does not have.
+            If the board has no such mark.
         """
     def marks(self) -> NDArray[np.float64]:
-        """Places of all marks on the board, meters, shape (N, 2)."""
+        """Returns the positions of all marks on the board, meters, shape (N, 2)."""
     def drawing(self) -> BoardDrawing:
-        """Black shapes of the board.
+        """Returns the black shapes of the board.
 
         Returns
         -------
@@ -153,20 +153,20 @@ class BoardDrawing:
 
 @final
 class BoardView:
-    """Marks of a board seen in one photo.
+    """Marks of a board in one photo.
 
     Parameters
     ----------
     pixels : array_like, shape (N, 2)
-        Pixel of each mark of the board, row by row; NaN where it is not seen.
+        Pixel of each mark of the board, row by row; NaN where not visible.
     """
     def __new__(cls, pixels: ArrayLike) -> BoardView: ...
     @property
     def pixels(self) -> NDArray[np.float64]:
-        """Pixel of each mark of the board, shape (N, 2); NaN where it is not seen."""
+        """Pixel of each mark of the board, shape (N, 2); NaN where not visible."""
     def __eq__(self, other: object, /) -> bool: ...
     def seen(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-        """Marks that are seen, with their pixels.
+        """Returns the visible marks with their pixels.
 
         Returns
         -------
@@ -174,7 +174,7 @@ class BoardView:
         pixels : ndarray, shape (M, 2)
         """
     def num_seen(self) -> int:
-        """Number of marks seen."""
+        """Returns the number of visible marks."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -184,18 +184,18 @@ class BoardSearch:
     Parameters
     ----------
     kind
-        "found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        "found"; "partial", a grid of another size; "markers", too few marks of the board; or
         "nothing".
     view
-        Marks, if the board was found.
+        Visible marks, if the board was found.
     columns
-        Marks along the longer side of a partial board.
+        Number of marks along the longer side of a partial board.
     rows
-        Marks along the shorter side of a partial board.
+        Number of marks along the shorter side of a partial board.
     num_seen
-        Number of marks seen of a partial board.
+        Number of visible marks of a partial board.
     num_of_board
-        Number of markers that are placed as on the board.
+        Number of markers that belong to the board.
     num_others
         Number of other markers of the dictionary.
     """
@@ -211,40 +211,40 @@ class BoardSearch:
     ) -> BoardSearch: ...
     @property
     def kind(self) -> str:
-        """"found"; "partial", a grid of another size; "markers", too few of the board's marks; or
+        """"found"; "partial", a grid of another size; "markers", too few marks of the board; or
         "nothing".
         """
     @property
     def view(self) -> BoardView | None:
-        """Marks, if the board was found."""
+        """Visible marks, if the board was found."""
     @property
     def columns(self) -> int | None:
-        """Marks along the longer side of a partial board."""
+        """Number of marks along the longer side of a partial board."""
     @property
     def rows(self) -> int | None:
-        """Marks along the shorter side of a partial board."""
+        """Number of marks along the shorter side of a partial board."""
     @property
     def num_seen(self) -> int | None:
-        """Number of marks seen of a partial board."""
+        """Number of visible marks of a partial board."""
     @property
     def num_of_board(self) -> int | None:
-        """Number of markers that are placed as on the board."""
+        """Number of markers that belong to the board."""
     @property
     def num_others(self) -> int | None:
         """Number of other markers of the dictionary."""
     def __eq__(self, other: object, /) -> bool: ...
     def problem(self, board: Board) -> str | None:
-        """Why the board was not found, as a sentence; None if it was.
+        """Returns the reason the board was not found, as a sentence; None if it was.
 
         Parameters
         ----------
         board : Board
-            Board that was searched.
+            Board of the search.
 
         Raises
         ------
         ValueError
-            Unknown ``kind``.
+            If ``kind`` is unknown.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -257,10 +257,10 @@ class Marker:
     id
         Number in the dictionary.
     corners
-        Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
-        left in an upright marker.
+        Corners of the black border, pixels, shape (4, 2): clockwise from the upper left one of
+        the upright marker.
     hamming
-        Number of bits that differ from the dictionary's.
+        Number of bits that differ from the dictionary.
     """
     def __new__(cls, id: int, corners: NDArray[np.float64], hamming: int) -> Marker: ...
     @property
@@ -268,43 +268,43 @@ class Marker:
         """Number in the dictionary."""
     @property
     def corners(self) -> NDArray[np.float64]:
-        """Corners of the black border, pixels, shape (4, 2): clockwise from the one that is upper
-        left in an upright marker.
+        """Corners of the black border, pixels, shape (4, 2): clockwise from the upper left one of
+        the upright marker.
         """
     @property
     def hamming(self) -> int:
-        """Number of bits that differ from the dictionary's."""
+        """Number of bits that differ from the dictionary."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class MarkerDictionary:
-    """Set of square markers, with the names and numbers of OpenCV.
+    """Set of square markers, with OpenCV's names and numbers.
 
     Parameters
     ----------
     name : str
-        Such as ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
+        For example ``"Aruco4x4_50"``, ``"4x4_50"``, ``"AprilTag36h11"`` or ``"36h11"``.
     """
     def __new__(cls, name: str) -> MarkerDictionary: ...
     @property
     def name(self) -> str:
-        """Name as in OpenCV without the prefix, such as "4x4_50"."""
+        """Name as in OpenCV, without the prefix, such as "4x4_50"."""
     @property
     def num_markers(self) -> int:
         """Number of markers."""
     @property
     def num_bits(self) -> int:
-        """Bits along a side, without the border."""
+        """Number of bits along a side, without the border."""
     @property
     def max_hamming(self) -> int:
-        """Number of wrong bits up to which markers are accepted by default."""
+        """Maximum number of wrong bits at which markers are accepted by default."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def all() -> list[MarkerDictionary]:
-        """Dictionaries of all kinds."""
+        """Returns the dictionaries of all kinds."""
     def is_white(self, id: int, row: int, column: int) -> bool:
-        """Whether a bit of an upright marker is white.
+        """Returns whether a bit of an upright marker is white.
 
         Parameters
         ----------
@@ -316,7 +316,7 @@ class MarkerDictionary:
         Raises
         ------
         IndexError
-            Marker or bit that the dictionary does not have.
+            If the dictionary has no such marker or bit.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -329,9 +329,9 @@ class CalibratedView:
     cam_from_board : RigidTransform
         Pose of the board, meters.
     rms_px : float
-        Root mean square of its reprojection errors, pixels.
+        Root mean square of the reprojection errors of the view, pixels.
     num_marks : int
-        Number of marks seen.
+        Number of visible marks.
     """
     def __new__(
         cls,
@@ -344,23 +344,23 @@ class CalibratedView:
         """Pose of the board, meters."""
     @property
     def rms_px(self) -> float:
-        """Root mean square of its reprojection errors, pixels."""
+        """Root mean square of the reprojection errors of the view, pixels."""
     @property
     def num_marks(self) -> int:
-        """Number of marks seen."""
+        """Number of visible marks."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class CalibrationWarning:
-    """Cause of uncertainty that the errors of a calibration do not show.
+    """Cause of uncertainty that the errors of a calibration do not reveal.
 
     Parameters
     ----------
     kind
         "parallel", "uncertain_focal", "low_coverage" or "bad_view".
     message
-        Cause as a sentence.
+        Cause in words, as a sentence.
     """
     def __new__(cls, kind: str, message: str) -> CalibrationWarning: ...
     @property
@@ -368,7 +368,7 @@ class CalibrationWarning:
         """"parallel", "uncertain_focal", "low_coverage" or "bad_view"."""
     @property
     def message(self) -> str:
-        """Cause as a sentence."""
+        """Cause in words, as a sentence."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -381,15 +381,15 @@ class Calibration:
     camera
         Camera.
     rms_px
-        Root mean square of all reprojection errors: distances, in pixels.
+        Root mean square of all reprojection errors (distances), pixels.
     std_dev_k
         Standard deviation of fu, fv, cu, cv, pixels, shape (4,).
     std_dev_lens
-        Standard deviation of each coefficient of the lens.
+        Standard deviation of each lens coefficient.
     coverage
-        Share of the image's area inside the marks of some view, 0 to 1.
+        Fraction of the image area covered by marks of some view, 0 to 1.
     views
-        For each view given a `CalibratedView`, or None where none was given.
+        `CalibratedView` of each given view, or None where none was given.
     warnings
         List of `CalibrationWarning`.
     """
@@ -408,19 +408,19 @@ class Calibration:
         """Camera."""
     @property
     def rms_px(self) -> float:
-        """Root mean square of all reprojection errors: distances, in pixels."""
+        """Root mean square of all reprojection errors (distances), pixels."""
     @property
     def std_dev_k(self) -> NDArray[np.float64]:
         """Standard deviation of fu, fv, cu, cv, pixels, shape (4,)."""
     @property
     def std_dev_lens(self) -> NDArray[np.float64]:
-        """Standard deviation of each coefficient of the lens."""
+        """Standard deviation of each lens coefficient."""
     @property
     def coverage(self) -> float:
-        """Share of the image's area inside the marks of some view, 0 to 1."""
+        """Fraction of the image area covered by marks of some view, 0 to 1."""
     @property
     def views(self) -> list[CalibratedView | None]:
-        """For each view given a `CalibratedView`, or None where none was given."""
+        """`CalibratedView` of each given view, or None where none was given."""
     @property
     def warnings(self) -> list[CalibrationWarning]:
         """List of `CalibrationWarning`."""
@@ -429,7 +429,7 @@ class Calibration:
 
 @final
 class RigCalibration:
-    """Two cameras mounted on a rig.
+    """Calibrated rig of two cameras.
 
     Parameters
     ----------
@@ -440,12 +440,12 @@ class RigCalibration:
     rms_px
         Root mean square of the reprojection errors in both cameras, pixels.
     std_dev_rotation_rad
-        Standard deviation of the rotation about the axes of the right camera, radians,
-        shape (3,).
+        Standard deviation of the rotation about the axes of the right camera, radians, shape
+        (3,).
     std_dev_translation_m
         Standard deviation of the translation, meters, shape (3,).
     pairs_rms_px
-        Root mean square of each pair, pixels; None where not both cameras see the board.
+        Root mean square of each pair, pixels; None unless both cameras see the board.
     """
     def __new__(
         cls,
@@ -467,37 +467,37 @@ class RigCalibration:
         """Root mean square of the reprojection errors in both cameras, pixels."""
     @property
     def std_dev_rotation_rad(self) -> NDArray[np.float64]:
-        """Standard deviation of the rotation about the axes of the right camera, radians,
-        shape (3,).
+        """Standard deviation of the rotation about the axes of the right camera, radians, shape
+        (3,).
         """
     @property
     def std_dev_translation_m(self) -> NDArray[np.float64]:
         """Standard deviation of the translation, meters, shape (3,)."""
     @property
     def pairs_rms_px(self) -> list[float | None]:
-        """Root mean square of each pair, pixels; None where not both cameras see the board."""
+        """Root mean square of each pair, pixels; None unless both cameras see the board."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Undistortion:
-    """Best camera without distortion for the photos of a camera, and the map to its images.
+    """Best undistorted camera for the photos of a camera, and the map to it.
 
     Parameters
     ----------
     camera : Camera
     keep : {"valid", "all"}, optional
-        Only the area that was photographed everywhere, or all with black borders.
+        Only the area that is valid everywhere, or the whole image with black borders.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Raises
     ------
     epipole.DegenerateError
-        Lens model that folds less than half-way to the border, or, with ``keep="all"``, a lens that
+        If the lens model folds less than halfway to the border, or, with ``keep="all"``, the lens
         sees more than 80° to a side.
     ValueError
-        Image of less than 2 pixels on a side, or of more than 2**32 pixels.
+        If a side of the image is shorter than 2 pixels, or the image has more than 2**32 pixels.
     """
     def __new__(
         cls,
@@ -511,7 +511,7 @@ class Undistortion:
         """Camera with distortion."""
     @property
     def keep(self) -> str:
-        """Area that is kept.
+        """Kept area.
 
         Returns
         -------
@@ -520,10 +520,10 @@ class Undistortion:
         """
     @property
     def intrinsics(self) -> Intrinsics:
-        """K of the new camera. Its pixels are square."""
+        """K of the undistorted camera. Its pixels are square."""
     @property
     def valid(self) -> PixelRect:
-        """Part of the result in which every pixel was photographed.
+        """Part of the result in which every pixel has image content.
 
         Returns
         -------
@@ -531,7 +531,7 @@ class Undistortion:
         """
     @property
     def map(self) -> PixelMap:
-        """Place in the photo that each pixel of the result is read from.
+        """Source position of every pixel of the result.
 
         Returns
         -------
@@ -554,17 +554,17 @@ def find_board(
         Gray, uint8 or float in [0, 1].
     board : Board
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
     BoardSearch
-        Its `view` has the marks; None if the board was not found.
+        Marks are in `view`, which is None if the board was not found.
 
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5].
+        If gray values are outside [-0.5, 1.5].
     """
 def detect_markers(
     image: ArrayLike,
@@ -580,21 +580,21 @@ def detect_markers(
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     dictionary : str or MarkerDictionary
-        Such as ``"4x4_50"`` or ``"36h11"``.
+        For example ``"4x4_50"`` or ``"36h11"``.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MarkerOptions
         ``max_hamming``, ``border_bits``, ``min_side_px``.
 
     Returns
     -------
     list of Marker
-        By number.
+        Sorted by number.
 
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5].
+        If gray values are outside [-0.5, 1.5].
     """
 def photograph_of_board(
     board: Board,
@@ -605,19 +605,19 @@ def photograph_of_board(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Photo of a board, with exact truth.
+    """Renders a photo of a board with known ground truth.
 
     Parameters
     ----------
     board : Board
     camera : Camera
     cam_from_board : RigidTransform
-        Meters.
+        Pose of the board, meters.
     noise : float, optional
         Standard deviation of the gray values.
     seed : int, optional
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -627,7 +627,7 @@ def photograph_of_board(
     Raises
     ------
     ValueError
-        Result of more than 2**32 pixels.
+        If the result has more than 2**32 pixels.
     """
 def calibrate(
     board: Board,
@@ -637,7 +637,7 @@ def calibrate(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.CalibrationOptions],
 ) -> Calibration:
-    """Intrinsics, lens, and poses of the board with the least squared reprojection errors.
+    """Calibrates a camera: estimates intrinsics, lens and board poses with minimal error.
 
     Parameters
     ----------
@@ -647,9 +647,9 @@ def calibrate(
     size : tuple of int
         Width and height of all photos, pixels.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : CalibrationOptions
-        ``lens``, the model of the lens, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
+        ``lens``, the lens model, such as ``"brown"`` or ``"fisheye"``; ``max_iterations``.
 
     Returns
     -------
@@ -658,11 +658,11 @@ def calibrate(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 views, or a view with fewer than 4 marks.
+        If there are fewer than 2 views, or a view has fewer than 4 marks.
     epipole.DegenerateError
-        Marks of a view on one line, or boards that are parallel or fit no camera.
+        If the marks of a view lie on a line, or the boards are parallel or fit no camera.
     ValueError
-        Image without pixels.
+        If the image size is 0.
     """
 def calibrate_rig(
     board: Board,
@@ -672,7 +672,7 @@ def calibrate_rig(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> RigCalibration:
-    """Relative pose of two calibrated cameras that see the same boards.
+    """Calibrates the relative pose of two calibrated cameras that see the same boards.
 
     Parameters
     ----------
@@ -680,9 +680,9 @@ def calibrate_rig(
     cameras : tuple of Camera
         Left and right camera.
     left, right : list of BoardView or None
-        Marks in the photos of each camera, taken in pairs.
+        Marks in the photos of each camera, in pairs.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -691,19 +691,19 @@ def calibrate_rig(
     Raises
     ------
     epipole.TooFewError
-        No board that both cameras see, or a view with fewer than 4 marks.
+        If the cameras see no board in common, or a view has fewer than 4 marks.
     epipole.DegenerateError
-        Marks of a view on one line, or in no plane in front of the camera.
+        If the marks of a view lie on a line, or not on a plane in front of the camera.
     ValueError
-        Camera without pixels.
+        If the image size of the camera is 0.
     """
 def intrinsics_from_planes(pixels_from_plane: ArrayLike) -> Intrinsics:
-    """K from homographies of planes, in closed form (Zhang).
+    """Computes K from homographies of planes, in closed form (Zhang).
 
     Parameters
     ----------
     pixels_from_plane : array_like, shape (N, 3, 3)
-        Homographies from a plane in its own unit to pixels, N >= 3.
+        Homographies from a plane, in its own unit, to pixels, N >= 3.
 
     Returns
     -------
@@ -712,7 +712,7 @@ def intrinsics_from_planes(pixels_from_plane: ArrayLike) -> Intrinsics:
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 homographies.
+        If there are fewer than 2 homographies.
     epipole.DegenerateError
-        Parallel planes, or noise that fits no camera.
+        If the planes are parallel, or the noise is so strong that no camera fits.
     """

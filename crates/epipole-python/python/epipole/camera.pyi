@@ -21,7 +21,7 @@ __all__ = [
 
 @final
 class Camera:
-    """Calibrated camera of any lens.
+    """Calibrated camera with any lens.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class Camera:
         Image size, pixels.
     intrinsics : Intrinsics
     lens : Lens, optional
-        Without distortion if not given.
+        No distortion by default.
     """
     def __new__(
         cls,
@@ -53,7 +53,7 @@ class Camera:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def pinhole(intrinsics: Intrinsics, width: int, height: int) -> Camera:
-        """Camera without distortion.
+        """Creates a camera without distortion.
 
         Parameters
         ----------
@@ -62,9 +62,9 @@ class Camera:
             Image size, pixels.
         """
     def is_pinhole(self) -> bool:
-        """Whether the camera is without distortion."""
+        """Whether the camera has no distortion."""
     def project(self, x_in_cam: ArrayLike) -> NDArray[np.float64]:
-        """Pixels of points in the camera frame.
+        """Projects points in the camera frame to pixels.
 
         Parameters
         ----------
@@ -78,10 +78,10 @@ class Camera:
         Raises
         ------
         epipole.DegenerateError
-            Single point that the lens does not see.
+            If a single point is given and the lens does not see it.
         """
     def unproject(self, pixel: ArrayLike) -> NDArray[np.float64]:
-        """Unit rays through pixels, in the camera frame.
+        """Computes the unit rays through pixels, in the camera frame.
 
         Parameters
         ----------
@@ -95,10 +95,10 @@ class Camera:
         Raises
         ------
         epipole.DegenerateError
-            Single pixel without a ray.
+            If a single pixel is given and has no ray.
         """
     def pinhole_pixel(self, pixel: ArrayLike) -> NDArray[np.float64]:
-        """Undistorted pixels: those of a camera with the same K and no distortion.
+        """Undistorts pixels: maps them to a camera with the same K and no distortion.
 
         Parameters
         ----------
@@ -112,7 +112,7 @@ class Camera:
         Raises
         ------
         epipole.DegenerateError
-            Single pixel without a ray, or with one 90° or more off the axis.
+            If a single pixel is given and has no ray, or its ray is 90° or more off the axis.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -130,7 +130,7 @@ class Intrinsics:
     Raises
     ------
     ValueError
-        Focal length not above 0.
+        If the focal length is not above 0.
     """
     def __new__(cls, fu_px: float, fv_px: float, cu_px: float, cv_px: float) -> Intrinsics: ...
     @property
@@ -148,7 +148,7 @@ class Intrinsics:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def centered(focal_px: float, width: int, height: int) -> Intrinsics:
-        """Intrinsics with square pixels and the principal point in the middle of the image.
+        """Creates intrinsics with square pixels and the principal point at the image center.
 
         Parameters
         ----------
@@ -160,11 +160,11 @@ class Intrinsics:
         Raises
         ------
         ValueError
-            Focal length not above 0.
+            If the focal length is not above 0.
         """
     @staticmethod
     def from_matrix(k: ArrayLike) -> Intrinsics:
-        """Intrinsics of a matrix K without skew.
+        """Creates intrinsics from a matrix K without skew.
 
         Parameters
         ----------
@@ -173,11 +173,11 @@ class Intrinsics:
         Raises
         ------
         ValueError
-            Focal length not above 0, or a matrix of another form than K without skew.
+            If the focal length is not above 0, or the matrix is not a K without skew.
         """
     @staticmethod
     def from_colmap(parameters: Sequence[float]) -> Intrinsics:
-        """Intrinsics of COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves.
+        """Creates intrinsics from COLMAP's fx, fy, cx, cy, with pixel centers at half-integers.
 
         Parameters
         ----------
@@ -187,18 +187,18 @@ class Intrinsics:
         Raises
         ------
         ValueError
-            Focal length not above 0.
+            If the focal length is not above 0.
         """
     def to_colmap(self) -> tuple[float, float, float, float]:
-        """COLMAP's parameters fx, fy, cx, cy, with pixel centers at halves."""
+        """Returns COLMAP's parameters fx, fy, cx, cy, with pixel centers at half-integers."""
     def principal_point(self) -> NDArray[np.float64]:
-        """Principal point, pixels, shape (2,)."""
+        """Returns the principal point, pixels, shape (2,)."""
     def matrix(self) -> NDArray[np.float64]:
-        """K, shape (3, 3)."""
+        """Returns K, shape (3, 3)."""
     def inverse_matrix(self) -> NDArray[np.float64]:
-        """Inverse of K, shape (3, 3)."""
+        """Returns the inverse of K, shape (3, 3)."""
     def project(self, x_in_cam: ArrayLike) -> NDArray[np.float64]:
-        """Pixels of points in the camera frame.
+        """Projects points in the camera frame to pixels.
 
         Parameters
         ----------
@@ -212,10 +212,10 @@ class Intrinsics:
         Raises
         ------
         epipole.DegenerateError
-            Single point with ``z <= 0``.
+            If a single point is given and has ``z <= 0``.
         """
     def ray(self, pixel: ArrayLike) -> NDArray[np.float64]:
-        """Rays through pixels, in the camera frame, with z = 1.
+        """Computes the rays through pixels, in the camera frame, with z = 1.
 
         Parameters
         ----------
@@ -226,20 +226,20 @@ class Intrinsics:
         ndarray, shape (3,) or (N, 3)
         """
     def scaled(self, factor: float) -> Intrinsics:
-        """Intrinsics after the image is resized by a factor; 0.5 halves both sides.
+        """Returns the intrinsics for an image resized by a factor; 0.5 halves both sides.
 
         Parameters
         ----------
         factor : float
-            Scale of the image, > 0.
+            Scale factor of the image, > 0.
 
         Raises
         ------
         ValueError
-            Factor not above 0.
+            If the factor is not above 0.
         """
     def zoomed(self, factor: float) -> Intrinsics:
-        """Intrinsics with both focal lengths multiplied by a factor.
+        """Returns the intrinsics with both focal lengths multiplied by a factor.
 
         Parameters
         ----------
@@ -249,29 +249,29 @@ class Intrinsics:
         Raises
         ------
         ValueError
-            Factor not above 0.
+            If the factor is not above 0.
         """
     def resized(self, old: tuple[int, int], new: tuple[int, int]) -> Intrinsics:
-        """Intrinsics after the image is resized from one (width, height) to another, pixels.
+        """Returns the intrinsics for an image resized from one (width, height) to another, pixels.
 
         Parameters
         ----------
         old, new : tuple of int
-            Width and height before and after, pixels.
+            Width and height before and after resizing, pixels.
 
         Raises
         ------
         ValueError
-            New side of 0 pixels.
+            If a new side is 0 pixels long.
         """
     def turned(self, quarters: int, size: tuple[int, int]) -> Intrinsics:
-        """Intrinsics after the image is turned clockwise by quarter turns.
+        """Returns the intrinsics for an image rotated clockwise by quarter turns.
 
         Parameters
         ----------
         quarters : int
         size : tuple of int
-            Width and height before the turn, pixels.
+            Width and height before the rotation, pixels.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -282,14 +282,14 @@ class Lens:
     Parameters
     ----------
     kind : {"brown", "rational", "fisheye", "division"}
-        Model, those of OpenCV but for the last.
+        Model; all but the last are OpenCV's.
     coefficients : sequence of float
-        5, 8, 4 or 1 numbers, in OpenCV's order. Zeros if not given.
+        5, 8, 4 or 1 numbers, in OpenCV's order. Zeros by default.
 
     Raises
     ------
     ValueError
-        Another number of coefficients than the kind has.
+        If the number of coefficients does not match the kind.
     """
     def __new__(
         cls,
@@ -304,9 +304,9 @@ class Lens:
         """Coefficients of the model."""
     def __eq__(self, other: object, /) -> bool: ...
     def is_none(self) -> bool:
-        """Whether the lens is without distortion."""
+        """Whether the lens has no distortion."""
     def project(self, x_in_cam: ArrayLike) -> NDArray[np.float64]:
-        """Distorted image points, for a focal length of 1.
+        """Projects points to distorted image points, for a focal length of 1.
 
         Parameters
         ----------
@@ -320,10 +320,10 @@ class Lens:
         Raises
         ------
         epipole.DegenerateError
-            Single point that the lens does not see.
+            If a single point is given and the lens does not see it.
         """
     def ray(self, seen: ArrayLike) -> NDArray[np.float64]:
-        """Rays of distorted image points, for a focal length of 1.
+        """Computes the rays of distorted image points, for a focal length of 1.
 
         Parameters
         ----------
@@ -336,10 +336,10 @@ class Lens:
         Raises
         ------
         epipole.DegenerateError
-            Single image point without a ray; among several, a row of NaN.
+            If a single image point is given and has no ray; for several points, its row is NaN.
         """
     def turned(self, quarters: int) -> Lens:
-        """Lens after the image is turned clockwise by quarter turns.
+        """Returns the lens for an image rotated clockwise by quarter turns.
 
         Parameters
         ----------
@@ -350,7 +350,7 @@ class Lens:
 
 @final
 class PosedCamera:
-    """Camera in the world.
+    """Camera with a pose in the world.
 
     Parameters
     ----------
@@ -367,11 +367,11 @@ class PosedCamera:
         """Pose: ``x_in_cam = cam_from_world @ x_in_world``."""
     def __eq__(self, other: object, /) -> bool: ...
     def center_in_world(self) -> NDArray[np.float64]:
-        """Center of the camera in the world, shape (3,)."""
+        """Returns the center of the camera in the world, shape (3,)."""
     def projection_matrix(self) -> NDArray[np.float64]:
-        """``P = K [R t]``, shape (3, 4), for undistorted pixels."""
+        """Returns ``P = K [R t]``, shape (3, 4), for undistorted pixels."""
     def project(self, x_in_world: ArrayLike) -> NDArray[np.float64]:
-        """Pixels of points in the world.
+        """Projects points in the world to pixels.
 
         Parameters
         ----------
@@ -385,10 +385,10 @@ class PosedCamera:
         Raises
         ------
         epipole.DegenerateError
-            Single point that the lens does not see.
+            If a single point is given and the lens does not see it.
         """
     def ray_in_world(self, pinhole_pixel: ArrayLike) -> NDArray[np.float64]:
-        """Directions of the rays through undistorted pixels, in the world, with a depth of 1.
+        """Computes the rays through undistorted pixels, in the world, with a depth of 1.
 
         Parameters
         ----------
@@ -407,14 +407,14 @@ class RigidTransform:
     Parameters
     ----------
     rotation : array_like, shape (3, 3), optional
-        Rotation matrix. The identity if not given.
+        Rotation matrix. The identity by default.
     translation : array_like, shape (3,), optional
-        Zero if not given.
+        Zero by default.
 
     Raises
     ------
     ValueError
-        Matrix that is no rotation.
+        If the matrix is not a rotation.
 
     Examples
     --------
@@ -440,13 +440,13 @@ class RigidTransform:
         """Quaternion (w, x, y, z) of the rotation, shape (4,)."""
     @property
     def angle_rad(self) -> float:
-        """Angle of the rotation, radians in [0, pi]."""
+        """Rotation angle, radians in [0, pi]."""
     @staticmethod
     def from_quaternion(
         quaternion: ArrayLike,
         translation: ArrayLike | None = None,
     ) -> RigidTransform:
-        """Transform of a quaternion (w, x, y, z), of length 1.
+        """Creates a transform from a unit quaternion (w, x, y, z).
 
         Parameters
         ----------
@@ -456,15 +456,15 @@ class RigidTransform:
         Raises
         ------
         ValueError
-            Quaternion whose length is not 1.
+            If the length of the quaternion is not 1.
         """
     def matrix(self) -> NDArray[np.float64]:
-        """Homogeneous matrix, shape (4, 4)."""
+        """Returns the homogeneous matrix, shape (4, 4)."""
     def inverse(self) -> RigidTransform:
-        """The inverse transform: ``b_from_a``."""
+        """Returns the inverse transform: ``b_from_a``."""
     @overload
     def __matmul__(self, other: RigidTransform, /) -> RigidTransform:
-        """Composition with a transform, or the image of points.
+        """Composes two transforms, or transforms points.
 
         Parameters
         ----------
@@ -476,7 +476,7 @@ class RigidTransform:
         """
     @overload
     def __matmul__(self, other: ArrayLike, /) -> NDArray[np.float64]:
-        """Composition with a transform, or the image of points.
+        """Composes two transforms, or transforms points.
 
         Parameters
         ----------
@@ -490,7 +490,7 @@ class RigidTransform:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def cross_matrix(t: ArrayLike) -> NDArray[np.float64]:
-    """Cross-product matrix: `cross_matrix(t) @ x == np.cross(t, x)`.
+    """Returns the cross-product matrix: `cross_matrix(t) @ x == np.cross(t, x)`.
 
     Parameters
     ----------
@@ -504,7 +504,7 @@ def relative_motion(
     cam1_from_world: RigidTransform,
     cam2_from_world: RigidTransform,
 ) -> RigidTransform:
-    """Motion from the frame of camera 1 to that of camera 2.
+    """Computes the motion from the frame of camera 1 to that of camera 2.
 
     Parameters
     ----------
@@ -520,14 +520,14 @@ def look_at(
     target_in_world: ArrayLike,
     up_in_world: ArrayLike,
 ) -> RigidTransform:
-    """Pose of an upright camera that looks at a point.
+    """Computes the pose of an upright camera that looks at a point.
 
     Parameters
     ----------
     center_in_world, target_in_world : array_like, shape (3,)
-        Center of the camera and the point it looks at.
+        Center of the camera, and the point at which it looks.
     up_in_world : array_like, shape (3,)
-        Direction that is up in the image.
+        Up direction in the image.
 
     Returns
     -------
@@ -537,10 +537,10 @@ def look_at(
     Raises
     ------
     epipole.DegenerateError
-        Target at the center, or ``up_in_world`` zero or along the line of sight.
+        If the target is at the center, or ``up_in_world`` is zero or parallel to the line of sight.
     """
 def pixel_to_colmap(pixel: ArrayLike) -> NDArray[np.float64]:
-    """Pixels in COLMAP's convention, with pixel centers at halves.
+    """Converts pixels to COLMAP's convention, with pixel centers at half-integers.
 
     Parameters
     ----------
@@ -551,7 +551,7 @@ def pixel_to_colmap(pixel: ArrayLike) -> NDArray[np.float64]:
     ndarray of the same shape
     """
 def pixel_from_colmap(pixel: ArrayLike) -> NDArray[np.float64]:
-    """Pixels from COLMAP's convention, with pixel centers at halves.
+    """Converts pixels from COLMAP's convention, with pixel centers at half-integers.
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ __all__ = [
 
 @final
 class RelativePose:
-    """Motion of a camera with a translation of length 1.
+    """Camera motion with a translation of length 1.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ class RelativePose:
     Raises
     ------
     ValueError
-        Matrix that is no rotation, or a direction whose length is not 1.
+        If the matrix is not a rotation, or the length of the direction is not 1.
     """
     def __new__(cls, rotation: ArrayLike, direction: ArrayLike) -> RelativePose: ...
     @property
@@ -79,7 +79,7 @@ class RelativePose:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_motion(cam2_from_cam1: RigidTransform) -> RelativePose:
-        """Relative pose of a motion, whose length is dropped.
+        """Creates a relative pose from a motion, without the length of its translation.
 
         Parameters
         ----------
@@ -88,12 +88,12 @@ class RelativePose:
         Raises
         ------
         epipole.DegenerateError
-            Motion without translation.
+            If the motion has no translation.
         """
     def essential(self) -> NDArray[np.float64]:
-        """E, shape (3, 3)."""
+        """Returns E, shape (3, 3)."""
     def fundamental(self, k1: Intrinsics, k2: Intrinsics) -> NDArray[np.float64]:
-        """F of the pixels of two pinhole cameras, shape (3, 3).
+        """Returns F for the pixels of two pinhole cameras, shape (3, 3).
 
         Parameters
         ----------
@@ -101,23 +101,23 @@ class RelativePose:
             Intrinsics of the two cameras.
         """
     def cam2_from_cam1(self) -> RigidTransform:
-        """The motion as a rigid transform."""
+        """Returns the motion as a rigid transform."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PoseWithFocal:
-    """Relative pose with the focal length of both cameras.
+    """Relative pose and common focal length of two cameras.
 
     Parameters
     ----------
     pose
         Motion.
     fundamental
-        F of the pixels, shape (3, 3).
+        F for pixels, shape (3, 3).
     focal_px
         Focal length of both cameras, pixels.
     focal_std_px
-        Standard deviation of the focal length, pixels; None if it makes no difference.
+        Standard deviation of the focal length, pixels; None if the focal length has no effect.
     """
     def __new__(
         cls,
@@ -131,13 +131,13 @@ class PoseWithFocal:
         """Motion."""
     @property
     def fundamental(self) -> NDArray[np.float64]:
-        """F of the pixels, shape (3, 3)."""
+        """F for pixels, shape (3, 3)."""
     @property
     def focal_px(self) -> float:
         """Focal length of both cameras, pixels."""
     @property
     def focal_std_px(self) -> float | None:
-        """Standard deviation of the focal length, pixels; None if it makes no difference."""
+        """Standard deviation of the focal length, pixels; None if the focal length has no effect."""
     def __eq__(self, other: object, /) -> bool: ...
     def tells_focal(self) -> bool:
         """Whether the matches determine the focal length."""
@@ -145,7 +145,7 @@ class PoseWithFocal:
 
 @final
 class EssentialWithFocal:
-    """Essential matrix with the focal length of both cameras.
+    """Essential matrix and common focal length of two cameras.
 
     Parameters
     ----------
@@ -197,18 +197,18 @@ class SelectedPose:
 
 @final
 class EightPoint:
-    """Fundamental matrix by the eight-point method, with its intermediate results.
+    """Fundamental matrix by the eight-point method, with intermediate results.
 
     Parameters
     ----------
     fundamental
         F of rank 2, shape (3, 3).
     full_rank
-        Least-squares solution before its rank was lowered to 2, shape (3, 3).
+        Least-squares solution before its rank is reduced to 2, shape (3, 3).
     singular_values
         Singular values of the linear system, largest first, shape (9,).
     condition_number
-        Largest singular value by the eighth: amplification of errors of the data.
+        Ratio of the largest to the eighth singular value: amplification of data errors.
     """
     def __new__(
         cls,
@@ -222,13 +222,13 @@ class EightPoint:
         """F of rank 2, shape (3, 3)."""
     @property
     def full_rank(self) -> NDArray[np.float64]:
-        """Least-squares solution before its rank was lowered to 2, shape (3, 3)."""
+        """Least-squares solution before its rank is reduced to 2, shape (3, 3)."""
     @property
     def singular_values(self) -> NDArray[np.float64]:
         """Singular values of the linear system, largest first, shape (9,)."""
     @property
     def condition_number(self) -> float:
-        """Largest singular value by the eighth: amplification of errors of the data."""
+        """Ratio of the largest to the eighth singular value: amplification of data errors."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -239,16 +239,16 @@ def estimate_fundamental(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Fundamental matrix of matches with outliers, by RANSAC.
+    """Estimates a fundamental matrix from matches with outliers, by RANSAC.
 
     Parameters
     ----------
     pixels1, pixels2 : array_like, shape (N, 2)
         Matches.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -258,13 +258,13 @@ def estimate_fundamental(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 7 different matches.
+        If there are fewer than 7 different matches.
     epipole.DegenerateError
-        All pixels of an image on one line.
+        If all pixels of an image are on a line.
     epipole.NoConsensusError
-        No matrix with 7 inliers.
+        If no matrix has 7 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_essential(
     pixels1: ArrayLike,
@@ -275,7 +275,7 @@ def estimate_essential(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Essential matrix of matches with outliers, by RANSAC.
+    """Estimates an essential matrix from matches with outliers, by RANSAC.
 
     Parameters
     ----------
@@ -283,9 +283,9 @@ def estimate_essential(
         Matches.
     camera1, camera2 : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -295,13 +295,13 @@ def estimate_essential(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 5 different matches.
+        If there are fewer than 5 different matches.
     epipole.DegenerateError
-        All pixels of an image of a pinhole camera on one line.
+        If all pixels of an image of a pinhole camera are on a line.
     epipole.NoConsensusError
-        No matrix with 5 inliers.
+        If no matrix has 5 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_relative_pose(
     pixels1: ArrayLike,
@@ -312,7 +312,7 @@ def estimate_relative_pose(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[RelativePose]:
-    """Relative pose of two calibrated cameras from matches with outliers, by RANSAC.
+    """Estimates the relative pose of two calibrated cameras from matches with outliers, by RANSAC.
 
     Parameters
     ----------
@@ -320,9 +320,9 @@ def estimate_relative_pose(
         Matches.
     camera1, camera2 : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -332,13 +332,13 @@ def estimate_relative_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 5 different matches.
+        If there are fewer than 5 different matches.
     epipole.DegenerateError
-        All pixels of an image of a pinhole camera on one line.
+        If all pixels of an image of a pinhole camera are on a line.
     epipole.NoConsensusError
-        No pose with 5 inliers.
+        If no pose has 5 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_relative_pose_with_gravity(
     pixels1: ArrayLike,
@@ -351,7 +351,7 @@ def estimate_relative_pose_with_gravity(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[RelativePose]:
-    """Relative pose of two calibrated cameras that know the direction of gravity, by RANSAC.
+    """Estimates the relative pose of two calibrated cameras with known gravity, by RANSAC.
 
     Parameters
     ----------
@@ -361,9 +361,9 @@ def estimate_relative_pose_with_gravity(
     gravity1, gravity2 : array_like, shape (3,)
         Direction of gravity in each camera's frame.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -373,13 +373,14 @@ def estimate_relative_pose_with_gravity(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 5 different matches.
+        If there are fewer than 5 different matches.
     epipole.DegenerateError
-        Gravity of length 0, or all pixels of an image of a pinhole camera on one line.
+        If a gravity vector has length 0, or all pixels of an image of a pinhole camera are on a
+        line.
     epipole.NoConsensusError
-        No pose with 3 inliers.
+        If no pose has 3 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_relative_pose_and_focal(
     pixels1: ArrayLike,
@@ -390,7 +391,7 @@ def estimate_relative_pose_and_focal(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[PoseWithFocal]:
-    """Relative pose and common focal length of two cameras, by RANSAC.
+    """Estimates the relative pose and common focal length of two cameras, by RANSAC.
 
     Parameters
     ----------
@@ -399,9 +400,9 @@ def estimate_relative_pose_and_focal(
     principal1, principal2 : array_like, shape (2,)
         Principal points, pixels.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -411,16 +412,16 @@ def estimate_relative_pose_and_focal(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 6 different matches.
+        If there are fewer than 6 different matches.
     epipole.DegenerateError
-        All pixels of an image on one line.
+        If all pixels of an image are on a line.
     epipole.NoConsensusError
-        No pose with 6 inliers.
+        If no pose has 6 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def fundamental_7point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
-    """Fundamental matrices of seven matches.
+    """Computes the fundamental matrices of seven matches.
 
     Parameters
     ----------
@@ -432,7 +433,7 @@ def fundamental_7point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.flo
         K <= 3, and 0 for a degenerate sample.
     """
 def fundamental_8point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
-    """Fundamental matrix of matches by the normalized eight-point method, without outliers.
+    """Fits a fundamental matrix by the normalized eight-point method, without outliers.
 
     Parameters
     ----------
@@ -446,12 +447,13 @@ def fundamental_8point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.flo
     Raises
     ------
     epipole.TooFewError
-        Fewer than 8 matches.
+        If there are fewer than 8 matches.
     epipole.DegenerateError
-        Matches on a plane or a line, equal ones, or those of a camera that only turned.
+        If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+        rotated.
     """
 def fundamental_8point_explained(pixels1: ArrayLike, pixels2: ArrayLike) -> EightPoint:
-    """`fundamental_8point` with its intermediate results.
+    """Returns the result of `fundamental_8point` with intermediate results.
 
     Parameters
     ----------
@@ -465,12 +467,13 @@ def fundamental_8point_explained(pixels1: ArrayLike, pixels2: ArrayLike) -> Eigh
     Raises
     ------
     epipole.TooFewError
-        Fewer than 8 matches.
+        If there are fewer than 8 matches.
     epipole.DegenerateError
-        Matches on a plane or a line, equal ones, or those of a camera that only turned.
+        If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+        rotated.
     """
 def fundamental_8point_unnormalized(pixels1: ArrayLike, pixels2: ArrayLike) -> EightPoint:
-    """Eight-point method without normalization of the pixels, for comparison.
+    """Applies the eight-point method without normalizing the pixels, for comparison.
 
     Parameters
     ----------
@@ -484,12 +487,13 @@ def fundamental_8point_unnormalized(pixels1: ArrayLike, pixels2: ArrayLike) -> E
     Raises
     ------
     epipole.TooFewError
-        Fewer than 8 matches.
+        If there are fewer than 8 matches.
     epipole.DegenerateError
-        Matches on a plane or a line, equal ones, or those of a camera that only turned.
+        If the matches do not determine F: on a plane or a line, equal, or from a camera that only
+        rotated.
     """
 def essential_5point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
-    """Essential matrices of five pairs of rays.
+    """Computes the essential matrices of five pairs of rays.
 
     Parameters
     ----------
@@ -501,7 +505,7 @@ def essential_5point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
         K <= 10, and 0 for a degenerate sample.
     """
 def essential_8point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
-    """Essential matrix of rays by linear least squares, without outliers.
+    """Fits an essential matrix to rays by linear least squares, without outliers.
 
     Parameters
     ----------
@@ -515,11 +519,11 @@ def essential_8point(rays1: ArrayLike, rays2: ArrayLike) -> NDArray[np.float64]:
     Raises
     ------
     epipole.TooFewError
-        Fewer than 8 pairs of rays.
+        If there are fewer than 8 pairs of rays.
     epipole.DegenerateError
-        Rays that leave the matrix open, such as those of a camera that only turned.
+        If the rays do not determine the matrix, as for a camera that only rotated.
     ValueError
-        Ray of length 0.
+        If a ray has length 0.
     """
 def essential_6point(
     pixels1: ArrayLike,
@@ -527,7 +531,7 @@ def essential_6point(
     principal1: ArrayLike,
     principal2: ArrayLike,
 ) -> list[EssentialWithFocal]:
-    """Essential matrices and common focal lengths of six matches.
+    """Computes the essential matrices and common focal lengths of six matches.
 
     Parameters
     ----------
@@ -546,7 +550,7 @@ def relative_pose_3point(
     gravity1: ArrayLike,
     gravity2: ArrayLike,
 ) -> list[RigidTransform]:
-    """Motions of three pairs of rays, with known directions of gravity.
+    """Computes the motions from three pairs of rays and known directions of gravity.
 
     Parameters
     ----------
@@ -566,14 +570,14 @@ def refine_fundamental(
     pixels2: ArrayLike,
     loss: str | Mapping[str, Any] | None = None,
 ) -> NDArray[np.float64]:
-    """Fundamental matrix refined by the Sampson errors of matches.
+    """Refines a fundamental matrix by minimizing the Sampson errors of matches.
 
     Parameters
     ----------
     fundamental : array_like, shape (3, 3)
     pixels1, pixels2 : array_like, shape (N, 2)
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 
     Returns
     -------
@@ -582,11 +586,11 @@ def refine_fundamental(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 7 different matches.
+        If there are fewer than 7 different matches.
     epipole.DegenerateError
-        Matrix of rank 1 or 0.
+        If the matrix has rank 1 or 0.
     ValueError
-        Loss width not above 0, or a coordinate beyond 1e9 pixels.
+        If the loss width is not above 0, or a coordinate is beyond 1e9 pixels.
     """
 def refine_relative_pose(
     pose: RelativePose,
@@ -596,7 +600,7 @@ def refine_relative_pose(
     camera2: Camera,
     loss: str | Mapping[str, Any] | None = None,
 ) -> RelativePose:
-    """Relative pose refined by the Sampson errors of matches.
+    """Refines a relative pose by minimizing the Sampson errors of matches.
 
     Parameters
     ----------
@@ -604,7 +608,7 @@ def refine_relative_pose(
     pixels1, pixels2 : array_like, shape (N, 2)
     camera1, camera2 : Camera
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 
     Returns
     -------
@@ -613,14 +617,14 @@ def refine_relative_pose(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 5 different matches.
+        If there are fewer than 5 different matches.
     epipole.DegenerateError
-        Pixel without a ray.
+        If a pixel has no ray.
     ValueError
-        Loss width not above 0, or a coordinate beyond 1e9 pixels.
+        If the loss width is not above 0, or a coordinate is beyond 1e9 pixels.
     """
 def sampson_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
-    """Sampson distances of matches from a fundamental matrix.
+    """Computes the Sampson distances of matches from a fundamental matrix.
 
     Parameters
     ----------
@@ -645,7 +649,7 @@ def tangent_sampson_px(
     pixel1: ArrayLike,
     pixel2: ArrayLike,
 ) -> Any:
-    """Tangent Sampson errors of matches between cameras of any lens.
+    """Computes the tangent Sampson errors of matches between cameras with any lens.
 
     Parameters
     ----------
@@ -658,10 +662,10 @@ def tangent_sampson_px(
     -------
     float or ndarray, shape (N,)
         Pixels of both images; inf where the rays cannot meet in front of both cameras, NaN where a
-        pixel has no ray. Between pinhole cameras nearly `sampson_px`.
+        pixel has no ray. Nearly equal to `sampson_px` for pinhole cameras.
     """
 def symmetric_epipolar_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
-    """Symmetric epipolar distances of matches from a fundamental matrix.
+    """Computes the symmetric epipolar distances of matches from a fundamental matrix.
 
     Parameters
     ----------
@@ -674,7 +678,7 @@ def symmetric_epipolar_px(fundamental: ArrayLike, pixel1: ArrayLike, pixel2: Arr
         Pixels.
     """
 def epipolar_row(x1: ArrayLike, x2: ArrayLike) -> NDArray[np.float64]:
-    """Rows of the linear system of the eight-point method: ``row @ F.ravel() == x2 @ F @ x1``.
+    """Returns the rows of the eight-point system: ``row @ F.ravel() == x2 @ F @ x1``.
 
     Parameters
     ----------
@@ -690,7 +694,7 @@ def epipolar_row(x1: ArrayLike, x2: ArrayLike) -> NDArray[np.float64]:
     array([10., 15.,  5., 14., 21.,  7.,  2.,  3.,  1.])
     """
 def epipolar_line1(fundamental: ArrayLike, pixel2: ArrayLike) -> NDArray[np.float64]:
-    """Epipolar lines in image 1 of pixels of image 2.
+    """Computes the epipolar lines in image 1 of pixels in image 2.
 
     Parameters
     ----------
@@ -706,10 +710,10 @@ def epipolar_line1(fundamental: ArrayLike, pixel2: ArrayLike) -> NDArray[np.floa
     Raises
     ------
     epipole.DegenerateError
-        Single pixel that is the epipole, or whose line is infinitely far away.
+        If a single pixel is given and it is the epipole or its line is at infinity.
     """
 def epipolar_line2(fundamental: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
-    """Epipolar lines in image 2 of pixels of image 1.
+    """Computes the epipolar lines in image 2 of pixels in image 1.
 
     Parameters
     ----------
@@ -725,10 +729,10 @@ def epipolar_line2(fundamental: ArrayLike, pixel1: ArrayLike) -> NDArray[np.floa
     Raises
     ------
     epipole.DegenerateError
-        Single pixel that is the epipole, or whose line is infinitely far away.
+        If a single pixel is given and it is the epipole or its line is at infinity.
     """
 def epipoles(fundamental: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Epipoles of image 1 and image 2.
+    """Computes the epipoles of image 1 and image 2.
 
     Parameters
     ----------
@@ -742,10 +746,10 @@ def epipoles(fundamental: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.fl
     Raises
     ------
     epipole.DegenerateError
-        Matrix of rank 1 or 0.
+        If the matrix has rank 1 or 0.
     """
 def enforce_rank2(matrix: ArrayLike) -> NDArray[np.float64]:
-    """Nearest matrix of rank 2, of unit norm.
+    """Returns the nearest matrix of rank 2, with unit norm.
 
     Parameters
     ----------
@@ -756,7 +760,7 @@ def enforce_rank2(matrix: ArrayLike) -> NDArray[np.float64]:
     ndarray, shape (3, 3)
     """
 def project_to_essential(matrix: ArrayLike) -> NDArray[np.float64]:
-    """Nearest essential matrix, of unit norm.
+    """Returns the nearest essential matrix, with unit norm.
 
     Parameters
     ----------
@@ -769,10 +773,10 @@ def project_to_essential(matrix: ArrayLike) -> NDArray[np.float64]:
     Raises
     ------
     epipole.DegenerateError
-        Matrix of rank 1 or 0.
+        If the matrix has rank 1 or 0.
     """
 def decompose_essential(essential: ArrayLike) -> list[RigidTransform]:
-    """The four motions of an essential matrix.
+    """Decomposes an essential matrix into its four motions.
 
     Parameters
     ----------
@@ -786,7 +790,7 @@ def decompose_essential(essential: ArrayLike) -> list[RigidTransform]:
     Raises
     ------
     epipole.DegenerateError
-        Matrix of rank 1 or 0.
+        If the matrix has rank 1 or 0.
     """
 def select_pose(
     motions: Sequence[RigidTransform],
@@ -795,12 +799,12 @@ def select_pose(
     k1: Intrinsics,
     k2: Intrinsics,
 ) -> SelectedPose:
-    """Motion that puts most points in front of both cameras.
+    """Selects the motion that puts most points in front of both cameras.
 
     Parameters
     ----------
     motions : sequence of RigidTransform
-        Candidates, such as those of `decompose_essential`.
+        Candidates, such as those from `decompose_essential`.
     pixels1, pixels2 : array_like, shape (N, 2)
         Matches without outliers.
     k1, k2 : Intrinsics
@@ -812,10 +816,10 @@ def select_pose(
     Raises
     ------
     epipole.TooFewError
-        No motions or no matches.
+        If there are no motions or no matches.
     """
 def essential_from_motion(cam2_from_cam1: RigidTransform) -> NDArray[np.float64]:
-    """Essential matrix of a motion, of unit norm.
+    """Computes the essential matrix of a motion, with unit norm.
 
     Parameters
     ----------
@@ -828,10 +832,10 @@ def essential_from_motion(cam2_from_cam1: RigidTransform) -> NDArray[np.float64]
     Raises
     ------
     epipole.DegenerateError
-        Motion without translation.
+        If the motion has no translation.
     """
 def fundamental_from_cameras(cam1: PosedCamera, cam2: PosedCamera) -> NDArray[np.float64]:
-    """Fundamental matrix of two cameras, of unit norm, for undistorted pixels.
+    """Computes the fundamental matrix of two cameras, with unit norm, for undistorted pixels.
 
     Parameters
     ----------
@@ -844,14 +848,14 @@ def fundamental_from_cameras(cam1: PosedCamera, cam2: PosedCamera) -> NDArray[np
     Raises
     ------
     epipole.DegenerateError
-        Cameras at the same place.
+        If both cameras are at the same position.
     """
 def fundamental_from_essential(
     essential: ArrayLike,
     k1: Intrinsics,
     k2: Intrinsics,
 ) -> NDArray[np.float64]:
-    """Fundamental matrix of an essential matrix, of unit norm.
+    """Computes the fundamental matrix of an essential matrix, with unit norm.
 
     Parameters
     ----------
@@ -865,14 +869,14 @@ def fundamental_from_essential(
     Raises
     ------
     epipole.DegenerateError
-        Matrix of zeros.
+        If the matrix is zero.
     """
 def essential_from_fundamental(
     fundamental: ArrayLike,
     k1: Intrinsics,
     k2: Intrinsics,
 ) -> NDArray[np.float64]:
-    """Essential matrix nearest to that of a fundamental matrix, of unit norm.
+    """Computes the essential matrix ``K2.T @ F @ K1``, with unit norm.
 
     Parameters
     ----------
@@ -886,14 +890,14 @@ def essential_from_fundamental(
     Raises
     ------
     epipole.DegenerateError
-        Matrix of zeros.
+        If the matrix is zero.
     """
 def focal_lengths_from_fundamental(
     fundamental: ArrayLike,
     principal1: ArrayLike,
     principal2: ArrayLike,
 ) -> tuple[float, float]:
-    """Focal lengths of two cameras from their fundamental matrix.
+    """Computes the focal lengths of two cameras from their fundamental matrix.
 
     Parameters
     ----------
@@ -908,6 +912,5 @@ def focal_lengths_from_fundamental(
     Raises
     ------
     epipole.DegenerateError
-        Optical axes that meet or are parallel, or so much noise that a squared focal length is
-        negative.
+        If the optical axes meet or are parallel, or noise makes a squared focal length negative.
     """

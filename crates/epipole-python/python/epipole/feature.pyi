@@ -43,20 +43,20 @@ __all__ = [
 
 @final
 class Keypoints:
-    """Detected places of an image; row k of each array belongs to keypoint k.
+    """Detected positions in an image; row k of each array belongs to keypoint k.
 
     Parameters
     ----------
     points : array_like, shape (N, 2)
         (u, v) in pixels, pixel centers at integers.
     scales_px : array_like, shape (N,), optional
-        Standard deviation of the blur where it was found, pixels of the image. 1 if not given.
+        Standard deviation of the blur at detection, pixels of the image. 1 by default.
     angles_rad : array_like, shape (N,), optional
-        Direction, ``arctan2(v, u)`` with v down. 0 if not given.
+        Direction, ``arctan2(v, u)`` with v down. 0 by default.
     responses : array_like, shape (N,), optional
-        Response of the detector; larger is better. 0 if not given.
+        Response of the detector; larger is better. 0 by default.
     octaves : array_like of int, shape (N,), optional
-        Octave or level of the pyramid. 0 if not given.
+        Octave or level of the pyramid. 0 by default.
 
     Notes
     -----
@@ -75,7 +75,7 @@ class Keypoints:
         """(u, v) in pixels, shape (N, 2)."""
     @property
     def scales_px(self) -> NDArray[np.float32]:
-        """Standard deviation of the blur, pixels of the image, float32 of shape (N,)."""
+        """Standard deviation of the blur at detection, pixels of the image, float32 of shape (N,)."""
     @property
     def angles_rad(self) -> NDArray[np.float32]:
         """Direction, radians, float32 of shape (N,)."""
@@ -88,7 +88,7 @@ class Keypoints:
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     def __getitem__(self, index: slice | ArrayLike, /) -> Keypoints:
-        """Part of the rows.
+        """Selects rows.
 
         Parameters
         ----------
@@ -99,13 +99,13 @@ class Keypoints:
 
 @final
 class Features:
-    """Keypoints and their descriptors; row k of one belongs to row k of the other.
+    """Keypoints and their descriptors, in the same order.
 
     Parameters
     ----------
     keypoints : Keypoints
     descriptors : array_like, shape (N, D) or uint8 of shape (N, 32)
-        Numbers, compared by Euclidean distance, or 256 bits, compared by Hamming distance.
+        Floating-point numbers, compared by Euclidean distance, or 256 bits, by Hamming distance.
 
     Notes
     -----
@@ -117,14 +117,14 @@ class Features:
         """Keypoints."""
     @property
     def descriptors(self) -> NDArray[Any]:
-        """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits."""
+        """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for binary ones."""
     @property
     def points(self) -> NDArray[np.float64]:
-        """Places of the keypoints, (u, v) in pixels, shape (N, 2)."""
+        """Positions of the keypoints, (u, v) in pixels, shape (N, 2)."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     def __getitem__(self, index: slice | ArrayLike, /) -> Features:
-        """Part of the rows.
+        """Selects rows.
 
         Parameters
         ----------
@@ -142,10 +142,10 @@ class Matches:
     indices
         Rows of the first and the second list, int64 of shape (M, 2).
     distances
-        Distance of the descriptors: Euclidean, or the number of bits that differ, float32 of
-        shape (M,).
+        Distance between the descriptors: Euclidean, or the number of bits that differ, float32
+        of shape (M,).
     ratios
-        Distance over that of the second nearest, in [0, 1], float32 of shape (M,).
+        Ratio of nearest to second nearest distance, in [0, 1], float32 of shape (M,).
     """
     def __new__(
         cls,
@@ -158,28 +158,28 @@ class Matches:
         """Rows of the first and the second list, int64 of shape (M, 2)."""
     @property
     def distances(self) -> NDArray[np.float32]:
-        """Distance of the descriptors: Euclidean, or the number of bits that differ, float32 of
-        shape (M,).
+        """Distance between the descriptors: Euclidean, or the number of bits that differ, float32
+        of shape (M,).
         """
     @property
     def ratios(self) -> NDArray[np.float32]:
-        """Distance over that of the second nearest, in [0, 1], float32 of shape (M,)."""
+        """Ratio of nearest to second nearest distance, in [0, 1], float32 of shape (M,)."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Neighbors:
-    """The two nearest descriptors of each descriptor.
+    """The two nearest descriptors for each descriptor.
 
     Parameters
     ----------
     indices
-        Row of the nearest, int64 of shape (N,).
+        Row of the nearest descriptor, int64 of shape (N,).
     distances
-        Distance of the nearest, float32 of shape (N,).
+        Distance to the nearest descriptor, float32 of shape (N,).
     second_distances
-        Distance of the second nearest, float32 of shape (N,); infinity if there is none.
+        Distance to the second nearest, float32 of shape (N,); infinity if there is none.
     """
     def __new__(
         cls,
@@ -189,20 +189,20 @@ class Neighbors:
     ) -> Neighbors: ...
     @property
     def indices(self) -> NDArray[np.int64]:
-        """Row of the nearest, int64 of shape (N,)."""
+        """Row of the nearest descriptor, int64 of shape (N,)."""
     @property
     def distances(self) -> NDArray[np.float32]:
-        """Distance of the nearest, float32 of shape (N,)."""
+        """Distance to the nearest descriptor, float32 of shape (N,)."""
     @property
     def second_distances(self) -> NDArray[np.float32]:
-        """Distance of the second nearest, float32 of shape (N,); infinity if there is none."""
+        """Distance to the second nearest, float32 of shape (N,); infinity if there is none."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class ScaleOctave:
-    """Layers of a scale space with samples at the same places.
+    """Layers of a scale space with the same sampling.
 
     Parameters
     ----------
@@ -211,11 +211,11 @@ class ScaleOctave:
     step_px
         Pixels of the image per sample.
     origin
-        Place of the first sample, pixels of the image, shape (2,).
+        Position of the first sample, pixels of the image, shape (2,).
     blurred
         Blurred images, float32 of shape (L, h, w).
     sigmas_px
-        Standard deviation of each one's blur, pixels of the image, shape (L,).
+        Standard deviation of the blur of each image, pixels of the image, shape (L,).
     differences
         Each blurred image minus the previous one, float32 of shape (L - 1, h, w).
     """
@@ -236,13 +236,13 @@ class ScaleOctave:
         """Pixels of the image per sample."""
     @property
     def origin(self) -> NDArray[np.float64]:
-        """Place of the first sample, pixels of the image, shape (2,)."""
+        """Position of the first sample, pixels of the image, shape (2,)."""
     @property
     def blurred(self) -> NDArray[np.float32]:
         """Blurred images, float32 of shape (L, h, w)."""
     @property
     def sigmas_px(self) -> NDArray[np.float64]:
-        """Standard deviation of each one's blur, pixels of the image, shape (L,)."""
+        """Standard deviation of the blur of each image, pixels of the image, shape (L,)."""
     @property
     def differences(self) -> NDArray[np.float32]:
         """Each blurred image minus the previous one, float32 of shape (L - 1, h, w)."""
@@ -251,7 +251,7 @@ class ScaleOctave:
 
 @final
 class ScaleSpace:
-    """Image at growing blurs, and the differences of neighboring blurs.
+    """Image at increasing blur, and the differences between neighboring blurs.
 
     Parameters
     ----------
@@ -260,10 +260,10 @@ class ScaleSpace:
     def __new__(cls, octaves: Sequence[ScaleOctave]) -> ScaleSpace: ...
     @property
     def octaves(self) -> list[ScaleOctave]:
-        """Octaves, each with half as many samples along an axis as the previous one."""
+        """Octaves, each with half as many samples per axis as the previous one."""
     def __eq__(self, other: object, /) -> bool: ...
     def answers(self, u: float, v: float) -> NDArray[np.float64]:
-        """Responses of the differences at a pixel.
+        """Returns the responses of the differences at a pixel.
 
         Parameters
         ----------
@@ -273,7 +273,7 @@ class ScaleSpace:
         Returns
         -------
         ndarray, shape (K, 2)
-            The blur in pixels and the difference, by growing blur.
+            Blur in pixels and difference, by increasing blur.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -307,7 +307,7 @@ class StructureTensor:
         """``sum w Iv*Iv``, float32 of shape (H, W)."""
     def __eq__(self, other: object, /) -> bool: ...
     def eigenvalues(self, u: int, v: int) -> tuple[float, float] | None:
-        """Eigenvalues at a pixel, the larger first; None outside the image.
+        """Returns the eigenvalues at a pixel, the larger first; None outside the image.
 
         Parameters
         ----------
@@ -315,7 +315,7 @@ class StructureTensor:
             Column and row.
         """
     def at(self, u: int, v: int) -> WindowTensor | None:
-        """Tensor at a pixel; None outside the image.
+        """Returns the tensor at a pixel; None outside the image.
 
         Parameters
         ----------
@@ -326,7 +326,7 @@ class StructureTensor:
 
 @final
 class ShiftSurface:
-    """Change of a window under every shift by whole pixels up to a reach.
+    """Squared change of a window under integer shifts up to a maximum.
 
     Parameters
     ----------
@@ -342,10 +342,10 @@ class ShiftSurface:
         """
     @property
     def reach(self) -> int:
-        """Largest shift to each side, pixels."""
+        """Maximum shift to each side, pixels."""
     def __eq__(self, other: object, /) -> bool: ...
     def at(self, du: int, dv: int) -> float | None:
-        """Squared change under the shift by `du` columns and `dv` rows; None beyond the reach.
+        """Returns the squared change for a shift (`du`, `dv`); None beyond the reach.
 
         Parameters
         ----------
@@ -380,7 +380,7 @@ class WindowTensor:
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_gradients(gradients: ArrayLike) -> WindowTensor:
-        """Tensor of the gradients (Iu, Iv) of a window's pixels.
+        """Computes the tensor from the gradients (Iu, Iv) of a window's pixels.
 
         Parameters
         ----------
@@ -392,33 +392,33 @@ class WindowTensor:
         pixel: tuple[int, int],
         **options: Unpack[option_types.StructureTensorOptions],
     ) -> WindowTensor:
-        """Tensor at one pixel of an image, as `structure_tensor` has it there.
+        """Computes the tensor at one pixel of an image, equal to that of `structure_tensor`.
 
         Parameters
         ----------
         image : array_like, shape (H, W)
-            Gray; uint8 counts as value / 255.
+            Gray; uint8 values are divided by 255.
         pixel : tuple of int
             Column and row.
         **options : StructureTensorOptions
-            Those of `structure_tensor`.
+            See `structure_tensor`.
 
         Raises
         ------
         ValueError
-            Pixel outside the image, or a window of 0 or more than 255 pixels, or a Gaussian one
-            outside (0, 31].
+            If the pixel is outside the image, a box window is outside 1 to 255 pixels, or a
+            Gaussian window is outside (0, 31].
         """
     def determinant(self) -> float:
-        """Product of the eigenvalues."""
+        """Returns the product of the eigenvalues."""
     def trace(self) -> float:
-        """Sum of the eigenvalues."""
+        """Returns the sum of the eigenvalues."""
     def eigenvalues(self) -> tuple[float, float]:
-        """Eigenvalues, the larger first."""
+        """Returns the eigenvalues, the larger first."""
     def direction_rad(self) -> float:
-        """Direction of the larger eigenvalue's eigenvector, ``arctan2(v, u)`` with v down, radians."""
+        """Returns the direction of the larger eigenvalue, ``arctan2(v, u)`` with v down, radians."""
     def harris(self, k: float) -> float:
-        """Harris response ``det M - k * trace(M)**2``.
+        """Returns the Harris response ``det M - k * trace(M)**2``.
 
         Parameters
         ----------
@@ -426,7 +426,7 @@ class WindowTensor:
             Weight of the squared trace, such as 0.04.
         """
     def change(self, shift: ArrayLike) -> float:
-        """Approximate squared change of the window under a small shift.
+        """Approximates the squared change of the window under a small shift.
 
         Parameters
         ----------
@@ -437,7 +437,7 @@ class WindowTensor:
 
 @final
 class Tracks:
-    """Points that were tracked from one image to the next; row k belongs to point k.
+    """Points tracked from one image to the next; row k belongs to point k.
 
     Parameters
     ----------
@@ -446,11 +446,11 @@ class Tracks:
     found
         Whether each point was tracked, boolean array of shape (N,).
     residuals
-        Mean absolute difference of gray values between the two windows, float32 of shape
-        (N,); NaN for lost points.
+        Mean absolute difference of gray values between the two windows, float32 of shape (N,);
+        NaN for lost points.
     forward_backward_px
-        Distance between each point and itself tracked back, pixels, shape (N,); NaN for lost
-        points, and without that check.
+        Distance between each point and its position after tracking back, pixels, shape (N,);
+        NaN for lost points, and without that check.
     """
     def __new__(
         cls,
@@ -467,25 +467,26 @@ class Tracks:
         """Whether each point was tracked, boolean array of shape (N,)."""
     @property
     def residuals(self) -> NDArray[np.float32]:
-        """Mean absolute difference of gray values between the two windows, float32 of shape
-        (N,); NaN for lost points.
+        """Mean absolute difference of gray values between the two windows, float32 of shape (N,);
+        NaN for lost points.
         """
     @property
     def forward_backward_px(self) -> NDArray[np.float64]:
-        """Distance between each point and itself tracked back, pixels, shape (N,); NaN for lost
-        points, and without that check.
+        """Distance between each point and its position after tracking back, pixels, shape (N,);
+        NaN for lost points, and without that check.
         """
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def photo_to_gray(photo: ArrayLike) -> NDArray[np.float32]:
-    """Gray image in [0, 1] of a photo, as the detectors take it.
+    """Converts a photo to gray in [0, 1], as input for the detectors.
 
     Parameters
     ----------
     photo : array_like, shape (H, W, 3)
-        uint8, red first. Images of `cv2.imread` are blue first: pass ``photo[..., ::-1]``.
+        uint8, in the order red, green, blue. For images from `cv2.imread`, pass
+        ``photo[..., ::-1]``.
 
     Returns
     -------
@@ -497,27 +498,27 @@ def detect_features(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.FeatureOptions],
 ) -> Features:
-    """Features of an image, strongest first.
+    """Detects the features of an image, strongest first.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : FeatureOptions
         ``kind``: ``"root_sift"`` (the default), ``"sift"``, ``"orb"`` or ``"harris"``;
-        ``max_features=8192``, 0 for no limit; ``upright=False``; and others of each kind.
+        ``max_features=8192``, 0 for no limit; ``upright=False``; and options of each kind.
 
     Returns
     -------
     Features
-        Descriptors are float32, or bits in uint8 for ORB.
+        Descriptors are float32, or uint8 (bits) for ORB.
 
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], or an option out of range.
+        If gray values are outside [-0.5, 1.5], or an option is out of range.
     """
 def detect_sift(
     image: ArrayLike,
@@ -525,27 +526,27 @@ def detect_sift(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> Features:
-    """SIFT features of an image, strongest first.
+    """Detects the SIFT features of an image, strongest first.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SiftOptions
-        Such as ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
+        For example ``max_features`` (0 for no limit), ``contrast_threshold``, ``upsample``,
         ``upright``, ``normalization="root"`` for RootSIFT.
 
     Returns
     -------
     Features
-        Descriptors are float32 of shape (N, 128), whole numbers from 0 to 255.
+        Descriptors are float32 of shape (N, 128), integers from 0 to 255.
 
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], or an option out of range.
+        If gray values are outside [-0.5, 1.5], or an option is out of range.
     """
 def detect_orb(
     image: ArrayLike,
@@ -553,16 +554,16 @@ def detect_orb(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.OrbOptions],
 ) -> Features:
-    """ORB features of an image, strongest first.
+    """Detects the ORB features of an image, strongest first.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : OrbOptions
-        Such as ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
+        For example ``max_features``, ``num_levels``, ``scale_factor``, ``fast_threshold`` (for gray
         values in [0, 1]), ``upright``.
 
     Returns
@@ -573,7 +574,7 @@ def detect_orb(
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], or an option out of range.
+        If gray values are outside [-0.5, 1.5], or an option is out of range.
     """
 def describe_sift(
     image: ArrayLike,
@@ -582,18 +583,18 @@ def describe_sift(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> NDArray[np.float32]:
-    """SIFT descriptors at given places, scales and directions.
+    """Computes SIFT descriptors at given positions, scales and directions.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     keypoints : Keypoints or array_like, shape (N, 2)
-        Points alone have a scale of 1 pixel and the direction 0.
+        Points without scale and direction get a scale of 1 pixel and the direction 0.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SiftOptions
-        Those of `detect_sift`.
+        See `detect_sift`.
 
     Returns
     -------
@@ -602,8 +603,8 @@ def describe_sift(
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
-        above 0.
+        If gray values are outside [-0.5, 1.5], an option is out of range, or the scale of a
+        keypoint is not above 0.
     """
 def sift_directions(
     image: ArrayLike,
@@ -612,18 +613,18 @@ def sift_directions(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> list[NDArray[np.float32]]:
-    """Dominant gradient directions around given places.
+    """Computes the dominant gradient directions around given positions.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     keypoints : Keypoints or array_like, shape (N, 2)
-        Points alone have a scale of 1 pixel.
+        Points without scale get a scale of 1 pixel.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SiftOptions
-        Those of `detect_sift`.
+        See `detect_sift`.
 
     Returns
     -------
@@ -633,8 +634,8 @@ def sift_directions(
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], an option out of range, or a keypoint whose scale is not
-        above 0.
+        If gray values are outside [-0.5, 1.5], an option is out of range, or the scale of a
+        keypoint is not above 0.
     """
 def describe_patches(
     image: ArrayLike,
@@ -644,7 +645,7 @@ def describe_patches(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Gray values in a square around each keypoint, less their mean, scaled to unit length.
+    """Computes zero-mean, unit-length patches of gray values around keypoints.
 
     Parameters
     ----------
@@ -656,7 +657,7 @@ def describe_patches(
     spacing_px : float, optional
         Distance between samples, pixels, > 0.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -666,7 +667,7 @@ def describe_patches(
     Raises
     ------
     ValueError
-        ``size`` outside 2 to 64, or ``spacing_px`` not above 0.
+        If ``size`` is outside 2 to 64, or ``spacing_px`` is not above 0.
     """
 def scale_space(
     image: ArrayLike,
@@ -674,26 +675,26 @@ def scale_space(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SiftOptions],
 ) -> ScaleSpace:
-    """Scale space of an image.
+    """Computes the scale space of an image.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray, uint8 or float in [0, 1].
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SiftOptions
-        Those of `detect_sift`.
+        See `detect_sift`.
 
     Returns
     -------
     ScaleSpace
-        Without octaves for an image smaller than about a dozen pixels.
+        No octaves for an image smaller than about a dozen pixels.
 
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], or an option out of range.
+        If gray values are outside [-0.5, 1.5], or an option is out of range.
     """
 def harris_response(
     image: ArrayLike,
@@ -702,18 +703,18 @@ def harris_response(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> NDArray[np.float32]:
-    """Harris response at each pixel: ``det M - k * trace(M)**2`` of the structure tensor M.
+    """Computes the Harris response at each pixel, ``det M - k * trace(M)**2`` (structure tensor M).
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     k : float
         In [0, 0.25), usually 0.04 to 0.06.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : StructureTensorOptions
-        Those of `structure_tensor`.
+        See `structure_tensor`.
 
     Returns
     -------
@@ -723,8 +724,8 @@ def harris_response(
     Raises
     ------
     ValueError
-        ``k`` outside [0, 0.25), or a window of 0 or more than 255 pixels, or a Gaussian one outside
-        (0, 31].
+        If ``k`` is outside [0, 0.25), a box window is outside 1 to 255 pixels, or a Gaussian window
+        is outside (0, 31].
     """
 def min_eigenvalue_response(
     image: ArrayLike,
@@ -732,16 +733,16 @@ def min_eigenvalue_response(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> NDArray[np.float32]:
-    """Smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
+    """Computes the smaller eigenvalue of the structure tensor at each pixel (Shi and Tomasi).
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : StructureTensorOptions
-        Those of `structure_tensor`.
+        See `structure_tensor`.
 
     Returns
     -------
@@ -750,7 +751,7 @@ def min_eigenvalue_response(
     Raises
     ------
     ValueError
-        Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
+        If a box window is outside 1 to 255 pixels, or a Gaussian window is outside (0, 31].
     """
 def good_features_to_track(
     image: ArrayLike,
@@ -758,17 +759,18 @@ def good_features_to_track(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.GoodFeaturesOptions],
 ) -> Keypoints:
-    """Corners of an image, strongest first, at whole pixels.
+    """Finds the corners of an image, strongest first, at integer pixels.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : GoodFeaturesOptions
-        Such as ``max_corners`` (0 for no limit), ``quality`` (share of the strongest response),
-        ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows": 3}``.
+        For example ``max_corners`` (0 for no limit), ``quality`` (relative to the strongest
+        response), ``min_distance_px``, ``measure={"harris": 0.04}``, ``grid={"columns": 4, "rows":
+        3}``.
 
     Returns
     -------
@@ -777,8 +779,8 @@ def good_features_to_track(
     Raises
     ------
     ValueError
-        ``quality`` outside (0, 1], ``min_distance_px`` below 0, a grid without cells, or
-        ``measure`` or ``tensor`` out of range.
+        If ``quality`` is outside (0, 1], ``min_distance_px`` is below 0, the grid has no cells, or
+        ``measure`` or ``tensor`` is out of range.
     """
 def non_maximum_suppression(
     response: ArrayLike,
@@ -787,7 +789,7 @@ def non_maximum_suppression(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> Keypoints:
-    """Local maxima of a response, strongest first.
+    """Finds the local maxima of a response, strongest first.
 
     Parameters
     ----------
@@ -795,9 +797,9 @@ def non_maximum_suppression(
     radius : int
         Pixels, >= 1: the window is ``2 * radius + 1`` wide.
     threshold : float
-        Smaller responses are left out.
+        Smaller responses are ignored.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -806,7 +808,7 @@ def non_maximum_suppression(
     Raises
     ------
     ValueError
-        ``radius`` of 0.
+        If ``radius`` is 0.
     """
 def refine_corners(
     image: ArrayLike,
@@ -815,7 +817,7 @@ def refine_corners(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RefineOptions],
 ) -> NDArray[np.float64]:
-    """Corners located between pixels: gradients around are perpendicular to the directions there.
+    """Refines corners to subpixel positions, from the gradients around them.
 
     Parameters
     ----------
@@ -824,19 +826,19 @@ def refine_corners(
     corners : array_like, shape (N, 2)
         Pixels.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RefineOptions
         ``half_window``, pixels; ``max_iterations``; ``tolerance_px``.
 
     Returns
     -------
     ndarray, shape (N, 2)
-        Rows of NaN where the window holds no corner.
+        Rows of NaN where the window contains no corner.
 
     Raises
     ------
     ValueError
-        ``half_window`` outside 1 to 50, or ``tolerance_px`` not above 0.
+        If ``half_window`` is outside 1 to 50, or ``tolerance_px`` is not above 0.
     """
 def structure_tensor(
     image: ArrayLike,
@@ -844,14 +846,14 @@ def structure_tensor(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.StructureTensorOptions],
 ) -> StructureTensor:
-    """Structure tensor of an image.
+    """Computes the structure tensor of an image.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : StructureTensorOptions
         ``derivative``: ``"sobel3"``, ``"sobel5"`` or ``"scharr"``; ``window``: ``{"box": 3}`` or
         ``{"gaussian": 1.5}``, pixels; ``scaling``: ``"textbook"`` or ``"open_cv"``; ``border``.
@@ -863,7 +865,7 @@ def structure_tensor(
     Raises
     ------
     ValueError
-        Window of 0 or more than 255 pixels, or a Gaussian one outside (0, 31].
+        If a box window is outside 1 to 255 pixels, or a Gaussian window is outside (0, 31].
     """
 def shift_surface(
     image: ArrayLike,
@@ -872,18 +874,18 @@ def shift_surface(
     reach: int,
     border: str | Mapping[str, Any] | None = None,
 ) -> ShiftSurface:
-    """Squared change of a window of an image under shifts.
+    """Computes the squared change of a window of an image under shifts.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     center : tuple of int
-        Column and row of the window's middle.
+        Column and row of the window's center.
     half_window : int
         The window is ``2 * half_window + 1`` pixels wide; at most 127.
     reach : int
-        Largest shift to each side, pixels, at most 127.
+        Maximum shift to each side, pixels, at most 127.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 
@@ -894,7 +896,7 @@ def shift_surface(
     Raises
     ------
     ValueError
-        ``center`` outside the image, or ``half_window`` or ``reach`` above 127.
+        If ``center`` is outside the image, or ``half_window`` or ``reach`` is above 127.
     """
 def match_descriptors(
     descriptors1: Features | ArrayLike,
@@ -903,14 +905,14 @@ def match_descriptors(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.MatchOptions],
 ) -> Matches:
-    """Matches between two lists of descriptors, in the order of the first.
+    """Matches two lists of descriptors, in the order of the first.
 
     Parameters
     ----------
     descriptors1, descriptors2 : Features or array_like
-        Numbers of shape (N, D), or bits in uint8 of shape (N, 32), such as OpenCV's.
+        Floats of shape (N, D), or bits in uint8 of shape (N, 32), as in OpenCV.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MatchOptions
         ``max_ratio``, in (0, 1], or None for no ratio test; ``mutual``; ``max_distance``;
         ``unique``.
@@ -922,9 +924,9 @@ def match_descriptors(
     Raises
     ------
     epipole.DegenerateError
-        Numbers in one list and bits in the other.
+        If one list has float and the other binary descriptors.
     ValueError
-        ``max_ratio`` outside (0, 1], or ``max_distance`` below 0.
+        If ``max_ratio`` is outside (0, 1], or ``max_distance`` is below 0.
 
     Examples
     --------
@@ -937,14 +939,14 @@ def nearest_two(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> Neighbors:
-    """The two nearest descriptors in the second list, for each in the first, without approximation.
+    """Finds the two nearest descriptors in the second list for each in the first, exactly.
 
     Parameters
     ----------
     descriptors1, descriptors2 : Features or array_like
-        Numbers of shape (N, D), or bits in uint8 of shape (N, 32).
+        Floats of shape (N, D), or bits in uint8 of shape (N, 32).
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -953,21 +955,21 @@ def nearest_two(
     Raises
     ------
     epipole.DegenerateError
-        Numbers in one list and bits in the other.
+        If one list has float and the other binary descriptors.
     """
 def nearest_few(
     query: ArrayLike,
     list: Features | ArrayLike,
     count: int,
 ) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
-    """Descriptors of a list nearest to one descriptor, nearest first.
+    """Finds the descriptors in a list that are nearest to one descriptor, nearest first.
 
     Parameters
     ----------
     query : array_like, shape (D,)
     list : Features or array_like
-        Numbers of shape (N, D), or bits in uint8 of shape (N, 32), which count as D = 256 numbers
-        0 and 1, the lowest bit first.
+        Floats of shape (N, D), or bits in uint8 of shape (N, 32), which count as D = 256 numbers 0
+        and 1, lowest bit first.
     count : int
         Maximum number of entries.
 
@@ -985,7 +987,7 @@ def track_lucas_kanade(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.TrackOptions],
 ) -> Tracks:
-    """Points tracked from one image to the next (Lucas and Kanade, on a pyramid).
+    """Tracks points from one image to the next (Lucas and Kanade, on a pyramid).
 
     Parameters
     ----------
@@ -994,7 +996,7 @@ def track_lucas_kanade(
     points : array_like, shape (N, 2)
         Pixels of the first image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : TrackOptions
         ``half_window``, pixels; ``num_levels``; ``max_iterations``; ``tolerance_px``;
         ``min_eigenvalue``; ``max_forward_backward_px``, or None for no check.
@@ -1006,5 +1008,5 @@ def track_lucas_kanade(
     Raises
     ------
     ValueError
-        Gray values outside [-0.5, 1.5], or an option out of range.
+        If gray values are outside [-0.5, 1.5], or an option is out of range.
     """

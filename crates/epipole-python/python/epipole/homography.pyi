@@ -34,7 +34,7 @@ class PlaneMotion:
     Parameters
     ----------
     cam2_from_cam1
-        Motion; the translation is in units of the plane's distance from camera 1.
+        Motion; its translation is in units of the plane's distance from camera 1.
     normal_in_cam1
         Unit normal of the plane in the frame of camera 1, shape (3,).
     """
@@ -45,7 +45,7 @@ class PlaneMotion:
     ) -> PlaneMotion: ...
     @property
     def cam2_from_cam1(self) -> RigidTransform:
-        """Motion; the translation is in units of the plane's distance from camera 1."""
+        """Motion; its translation is in units of the plane's distance from camera 1."""
     @property
     def normal_in_cam1(self) -> NDArray[np.float64]:
         """Unit normal of the plane in the frame of camera 1, shape (3,)."""
@@ -59,16 +59,16 @@ def estimate_homography(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Homography of matches with outliers, by RANSAC.
+    """Estimates a homography from matches with outliers, by RANSAC.
 
     Parameters
     ----------
     pixels1, pixels2 : array_like, shape (N, 2)
         Matches.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -78,13 +78,13 @@ def estimate_homography(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches.
+        If there are fewer than 4 different matches.
     epipole.DegenerateError
-        All pixels of an image on one line.
+        If all pixels of an image are on a line.
     epipole.NoConsensusError
-        No homography with 4 inliers.
+        If no homography has 4 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def estimate_homography_calibrated(
     pixels1: ArrayLike,
@@ -95,7 +95,7 @@ def estimate_homography_calibrated(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Homography between the rays of two calibrated cameras, by RANSAC.
+    """Estimates a homography between the rays of two calibrated cameras, by RANSAC.
 
     Parameters
     ----------
@@ -103,28 +103,28 @@ def estimate_homography_calibrated(
         Matches.
     camera1, camera2 : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
     RansacReport of ndarray
-        Its model is H of rays, shape (3, 3).
+        Its model is the H that maps rays, shape (3, 3).
 
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches that both lenses see.
+        If fewer than 4 different matches are within the range of both lenses.
     epipole.DegenerateError
-        All pixels of an image of a pinhole camera on one line.
+        If all pixels of an image of a pinhole camera are on a line.
     epipole.NoConsensusError
-        No homography with 4 inliers.
+        If no homography has 4 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def homography_4point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
-    """Homographies of four matches.
+    """Computes the homographies of four matches.
 
     Parameters
     ----------
@@ -136,7 +136,7 @@ def homography_4point(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.floa
         K is 1, or 0 for a degenerate sample.
     """
 def fit_homography(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64]:
-    """Homography of matches by linear least squares, without outliers.
+    """Fits a homography to matches by linear least squares, without outliers.
 
     Parameters
     ----------
@@ -150,9 +150,9 @@ def fit_homography(pixels1: ArrayLike, pixels2: ArrayLike) -> NDArray[np.float64
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 matches.
+        If there are fewer than 4 matches.
     epipole.DegenerateError
-        All points, or all but one, on one line.
+        If all points, or all but one, are on a line.
     """
 def refine_homography(
     homography: ArrayLike,
@@ -160,14 +160,14 @@ def refine_homography(
     pixels2: ArrayLike,
     loss: str | Mapping[str, Any] | None = None,
 ) -> NDArray[np.float64]:
-    """Homography refined from matches.
+    """Refines a homography from matches.
 
     Parameters
     ----------
     homography : array_like, shape (3, 3)
     pixels1, pixels2 : array_like, shape (N, 2)
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 
     Returns
     -------
@@ -176,13 +176,13 @@ def refine_homography(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches.
+        If there are fewer than 4 different matches.
     ValueError
-        Loss width not above 0, a coordinate beyond 1e9 pixels, or a pixel that the start maps to
-        infinity.
+        If the loss width is not above 0, a coordinate is beyond 1e9 pixels, or the initial
+        homography maps a pixel to infinity.
     """
 def transfer(homography: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
-    """Pixels of image 2 where a homography maps pixels of image 1.
+    """Maps pixels of image 1 to image 2 by a homography.
 
     Parameters
     ----------
@@ -197,7 +197,7 @@ def transfer(homography: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
     Raises
     ------
     epipole.DegenerateError
-        Single pixel that is mapped to infinity.
+        If a single pixel is given and is mapped to infinity.
 
     Examples
     --------
@@ -205,7 +205,7 @@ def transfer(homography: ArrayLike, pixel1: ArrayLike) -> NDArray[np.float64]:
     array([7., 8.])
     """
 def transfer_error_px(homography: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
-    """Distances in image 2 between mapped pixels of image 1 and their matches.
+    """Computes the distances in image 2 between mapped pixels and their matches.
 
     Parameters
     ----------
@@ -218,7 +218,7 @@ def transfer_error_px(homography: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLik
         Pixels.
     """
 def homography_sampson_px(homography: ArrayLike, pixel1: ArrayLike, pixel2: ArrayLike) -> Any:
-    """Sampson distances of matches from a homography.
+    """Computes the Sampson distances of matches from a homography.
 
     Parameters
     ----------
@@ -235,7 +235,7 @@ def decompose_homography(
     k1: Intrinsics,
     k2: Intrinsics,
 ) -> list[PlaneMotion]:
-    """Motions and planes of a homography.
+    """Decomposes a homography into its possible motions and planes.
 
     Parameters
     ----------
@@ -249,7 +249,7 @@ def decompose_homography(
     Raises
     ------
     epipole.DegenerateError
-        Singular matrix.
+        If the matrix is singular.
     """
 def homography_from_motion(
     cam2_from_cam1: RigidTransform,
@@ -258,7 +258,7 @@ def homography_from_motion(
     k1: Intrinsics,
     k2: Intrinsics,
 ) -> NDArray[np.float64]:
-    """Homography of a plane between two cameras.
+    """Computes the homography of a plane between two cameras.
 
     Parameters
     ----------

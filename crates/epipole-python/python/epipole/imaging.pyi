@@ -65,9 +65,9 @@ class Gradient:
         """Derivative along v, downwards, float32 of shape (H, W)."""
     def __eq__(self, other: object, /) -> bool: ...
     def magnitude(self) -> NDArray[np.float32]:
-        """Steepest slope at each pixel, shape (H, W)."""
+        """Returns the steepest slope at each pixel, shape (H, W)."""
     def orientation(self) -> NDArray[np.float32]:
-        """Direction of steepest ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat."""
+        """Returns the direction of ascent, ``arctan2(dv, du)``, radians, shape (H, W); 0 where flat."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -77,12 +77,12 @@ class IntegralImage:
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     """
     def __new__(cls, image: ArrayLike) -> IntegralImage: ...
     def __eq__(self, other: object, /) -> bool: ...
     def sum(self, u0: int, v0: int, u1: int, v1: int) -> float:
-        """Sum over ``image[v0:v1, u0:u1]``.
+        """Returns the sum over ``image[v0:v1, u0:u1]``.
 
         Parameters
         ----------
@@ -90,7 +90,7 @@ class IntegralImage:
             Columns u0 to u1 - 1 and rows v0 to v1 - 1.
         """
     def mean(self, u0: int, v0: int, u1: int, v1: int) -> float:
-        """Mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
+        """Returns the mean over ``image[v0:v1, u0:u1]``; 0 if it is empty.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class IntegralImage:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def gray_to_f32(image: ArrayLike) -> NDArray[np.float32]:
-    """8-bit gray image as floats in [0, 1]: ``image / 255``; floats stay as they are.
+    """Converts an 8-bit gray image to floats in [0, 1], ``image / 255``; floats do not change.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def gray_to_f32(image: ArrayLike) -> NDArray[np.float32]:
     ndarray of float32, shape (H, W)
     """
 def gray_to_u8(image: ArrayLike) -> NDArray[np.uint8]:
-    """Gray image of floats in [0, 1] as 8 bits, rounded and clamped.
+    """Converts a gray image of floats in [0, 1] to 8 bits, rounded and clamped.
 
     Parameters
     ----------
@@ -122,26 +122,27 @@ def gray_to_u8(image: ArrayLike) -> NDArray[np.uint8]:
     ndarray of uint8, shape (H, W)
     """
 def rgb_to_gray(image: ArrayLike) -> NDArray[np.uint8]:
-    """Gray image of a color image by the weights of ITU-R BT.601, equal to OpenCV's.
+    """Converts a color image to gray by the weights of ITU-R BT.601, as in OpenCV.
 
     Parameters
     ----------
     image : array_like, shape (H, W, 3)
-        uint8, red first. Images of `cv2.imread` are blue first: pass ``image[..., ::-1]``.
+        uint8, in the order red, green, blue. For images from `cv2.imread`, pass
+        ``image[..., ::-1]``.
 
     Returns
     -------
     ndarray of uint8, shape (H, W)
     """
 def rgb_to_gray_f32(image: ArrayLike, weights: ArrayLike | None = None) -> NDArray[np.float32]:
-    """Gray image of a color image by any weights.
+    """Converts a color image to gray by any weights.
 
     Parameters
     ----------
     image : array_like, shape (H, W, 3)
-        uint8, red first.
+        uint8, in the order red, green, blue.
     weights : array_like, shape (3,), optional
-        Weights of red, green and blue; `BT601_WEIGHTS` if not given. A sum of 1 keeps white at 1.
+        Weights of red, green and blue; `BT601_WEIGHTS` by default. A sum of 1 keeps white at 1.
 
     Returns
     -------
@@ -154,18 +155,18 @@ def correlate(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Image correlated with a kernel, which is not flipped.
+    """Correlates an image with a kernel, which is not flipped.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     kernel : array_like, shape (K, L)
-        Weights, with odd sides.
+        Weights, with odd side lengths.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -174,7 +175,7 @@ def correlate(
     Raises
     ------
     ValueError
-        Kernel with an even side.
+        If a side of the kernel is even.
     """
 def separable_filter(
     image: ArrayLike,
@@ -184,18 +185,18 @@ def separable_filter(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Image correlated with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
+    """Correlates an image with ``np.outer(kernel_v, kernel_u)``, which is not flipped.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     kernel_u, kernel_v : array_like, shape (K,)
-        Weights along the rows and along the columns, odd numbers of them.
+        Weights along the rows and along the columns, an odd number each.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -204,10 +205,10 @@ def separable_filter(
     Raises
     ------
     ValueError
-        Kernel of even length.
+        If the length of the kernel is even.
     """
 def noise_gain(weights: ArrayLike) -> float:
-    """Noise gain of a filter: standard deviation of its response to white noise of deviation 1.
+    """Computes the noise gain of a filter: standard deviation of its response to unit white noise.
 
     Parameters
     ----------
@@ -218,7 +219,7 @@ def noise_gain(weights: ArrayLike) -> float:
     float
     """
 def gaussian_kernel(sigma_px: float, size: int) -> NDArray[np.float32]:
-    """Samples of a Gaussian that sum to one.
+    """Samples a Gaussian, with a sum of 1.
 
     Parameters
     ----------
@@ -234,7 +235,7 @@ def gaussian_kernel(sigma_px: float, size: int) -> NDArray[np.float32]:
     Raises
     ------
     ValueError
-        ``sigma_px`` outside (0, 1000], or ``size`` even or above 20001.
+        If ``sigma_px`` is outside (0, 1000], or ``size`` is even or above 20001.
 
     Examples
     --------
@@ -244,7 +245,7 @@ def gaussian_kernel(sigma_px: float, size: int) -> NDArray[np.float32]:
 def gaussian_derivative_kernels(
     sigma_px: float,
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Kernels of `gaussian_derivative`: a Gaussian and its derivative.
+    """Returns the kernels of `gaussian_derivative`: a Gaussian and its derivative.
 
     Parameters
     ----------
@@ -254,12 +255,12 @@ def gaussian_derivative_kernels(
     Returns
     -------
     smooth, slope : ndarray of float32, shape (N,)
-        ``smooth`` sums to 1; ``slope`` gives a ramp of slope 1 the value 1.
+        ``smooth`` sums to 1; ``slope`` has the response 1 to a ramp of slope 1.
 
     Raises
     ------
     ValueError
-        ``sigma_px`` outside (0, 1000].
+        If ``sigma_px`` is outside (0, 1000].
     """
 def gaussian_blur(
     image: ArrayLike,
@@ -268,7 +269,7 @@ def gaussian_blur(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[Any]:
-    """Image blurred by a Gaussian, cut off at about 4 sigma.
+    """Blurs an image by a Gaussian, truncated at about 4 sigma.
 
     Parameters
     ----------
@@ -279,17 +280,17 @@ def gaussian_blur(
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
     ndarray of uint8 or float32, shape (H, W)
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
 
     Raises
     ------
     ValueError
-        ``sigma_px`` outside (0, 1000].
+        If ``sigma_px`` is outside (0, 1000].
     """
 def box_filter(
     image: ArrayLike,
@@ -298,7 +299,7 @@ def box_filter(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[Any]:
-    """Mean of the ``size x size`` window around each pixel.
+    """Computes the mean of the ``size x size`` window around each pixel.
 
     Parameters
     ----------
@@ -309,29 +310,29 @@ def box_filter(
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
     ndarray of uint8 or float32, shape (H, W)
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
 
     Raises
     ------
     ValueError
-        ``size`` even or above 1001.
+        If ``size`` is even or above 1001.
     """
 def derivative(
     image: ArrayLike,
     kind: str | None = None,
     border: str | Mapping[str, Any] | None = None,
 ) -> Gradient:
-    """Gradient by a filter of small integers, not divided by its gain.
+    """Computes the gradient by an integer filter, not divided by its gain.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     kind : str, optional
         ``"sobel3"`` (gain 8), ``"sobel5"`` (128) or ``"scharr"`` (32).
     border : str or dict, optional
@@ -345,12 +346,12 @@ def centered_difference(
     image: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
 ) -> Gradient:
-    """Gradient by centered differences, slopes per pixel.
+    """Computes the gradient by central differences, as slopes per pixel.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 
@@ -359,12 +360,12 @@ def centered_difference(
     Gradient
     """
 def sobel(image: ArrayLike, border: str | Mapping[str, Any] | None = None) -> Gradient:
-    """Gradient by the 3x3 Sobel filter, 8 times the slope per pixel.
+    """Computes the gradient by the 3x3 Sobel filter, 8 times the slope per pixel.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
 
@@ -379,18 +380,18 @@ def gaussian_derivative(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> Gradient:
-    """Gradient of the image blurred by a Gaussian, slopes per pixel.
+    """Computes the gradient of the image blurred by a Gaussian, as slopes per pixel.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     sigma_px : float
         Standard deviation of the Gaussian, pixels, in (0, 1000].
     border : str or dict, optional
         ``"reflect101"``, ``"replicate"`` or ``{"constant": 0.0}``, in units of the image.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -399,13 +400,13 @@ def gaussian_derivative(
     Raises
     ------
     ValueError
-        ``sigma_px`` outside (0, 1000].
+        If ``sigma_px`` is outside (0, 1000].
     """
 def pyramid_down(
     image: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
 ) -> NDArray[Any]:
-    """Image at half its size, blurred by the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
+    """Halves an image, after a blur with the binomial kernel ``[1, 4, 6, 4, 1] / 16``.
 
     Parameters
     ----------
@@ -417,77 +418,77 @@ def pyramid_down(
     Returns
     -------
     ndarray of uint8 or float32, shape (ceil(H / 2), ceil(W / 2))
-        uint8 for uint8, else float32. Its pixel u lies at 2u of the image.
+        uint8 for a uint8 image, else float32. Pixel u of the result is at 2u of the image.
     """
 def pyramid_up(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
-    """Image at twice its size, interpolated by the binomial kernel.
+    """Doubles an image, interpolated by the binomial kernel.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray.
     width, height : int
-        Size of the result, pixels: each twice that of the image, or one less.
+        Size of the result, pixels: twice the size of the image, or one less.
 
     Returns
     -------
     ndarray of uint8 or float32, shape (height, width)
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
 
     Raises
     ------
     ValueError
-        Result of more than 2**32 pixels.
+        If the result has more than 2**32 pixels.
     """
 def gaussian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[Any]]:
-    """Image and its halves by `pyramid_down`, largest first.
+    """Downscales an image repeatedly by `pyramid_down`; the list starts with the image.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
         Gray.
     num_levels : int
-        Maximum number of levels; the last is a single pixel at the latest.
+        Maximum number of levels; a single pixel ends the pyramid.
 
     Returns
     -------
     list of ndarray of uint8 or float32
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
     """
 def laplacian_pyramid(image: ArrayLike, num_levels: int) -> list[NDArray[np.float32]]:
-    """Laplacian pyramid: differences of each Gaussian level and the next, and the smallest level.
+    """Computes the Laplacian pyramid: differences of successive Gaussian levels, and the last level.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     num_levels : int
-        Maximum number of levels; the last is a single pixel at the latest.
+        Maximum number of levels; a single pixel ends the pyramid.
 
     Returns
     -------
     list of ndarray of float32
     """
 def from_laplacian_pyramid(levels: Sequence[ArrayLike]) -> NDArray[np.float32]:
-    """Image of a Laplacian pyramid.
+    """Reconstructs the image of a Laplacian pyramid.
 
     Parameters
     ----------
     levels : list of array_like
-        Those of `laplacian_pyramid`, possibly changed.
+        Result of `laplacian_pyramid`, possibly modified.
 
     Returns
     -------
     ndarray of float32, shape (H, W)
-        Shape (0, 0) without levels.
+        Shape (0, 0) for no levels.
     """
 def sharpness(image: ArrayLike) -> float:
-    """Sharpness of a photo: mean square of its details of a few pixels.
+    """Measures the sharpness of a photo: mean square of its details of a few pixels.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
 
     Returns
     -------
@@ -495,7 +496,7 @@ def sharpness(image: ArrayLike) -> float:
         Comparable between photos of equal size and similar content, such as frames of a video.
     """
 def resize(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
-    """Image at another size, without aliasing: means when it shrinks, linear when it grows.
+    """Resizes an image without aliasing: area averages to shrink, linear interpolation to enlarge.
 
     Parameters
     ----------
@@ -507,15 +508,15 @@ def resize(image: ArrayLike, width: int, height: int) -> NDArray[Any]:
     Returns
     -------
     ndarray of uint8 or float32, shape (height, width)
-        uint8 for uint8, else float32. Its pixel u lies at ``(u + 0.5) * W / width - 0.5``.
+        uint8 for a uint8 image, else float32. Pixel u is at ``(u + 0.5) * W / width - 0.5``.
 
     Raises
     ------
     ValueError
-        Side of 0 pixels, or more than 2**32 pixels.
+        If a side is 0 pixels long, or the result has more than 2**32 pixels.
     """
 def reduce_rgb(image: ArrayLike, max_pixels: int) -> NDArray[np.uint8]:
-    """Color image with at most `max_pixels` pixels, downscaled only if it has more.
+    """Downscales a color image to at most `max_pixels` pixels, if it has more.
 
     Parameters
     ----------
@@ -526,19 +527,19 @@ def reduce_rgb(image: ArrayLike, max_pixels: int) -> NDArray[np.uint8]:
     Returns
     -------
     ndarray of uint8, shape (h, w, 3)
-        `Intrinsics.resized` gives its intrinsics.
+        `Intrinsics.resized` returns the matching intrinsics.
     """
 def sample_bilinear(
     image: ArrayLike,
     pixel: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
 ) -> Any:
-    """Gray values between pixels by bilinear interpolation.
+    """Interpolates gray values between pixels bilinearly.
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     pixel : array_like, shape (2,) or (N, 2)
         (u, v), pixel centers at integers.
     border : str or dict, optional
@@ -553,12 +554,12 @@ def sample_bicubic(
     pixel: ArrayLike,
     border: str | Mapping[str, Any] | None = None,
 ) -> Any:
-    """Gray values between pixels by bicubic interpolation (Catmull-Rom).
+    """Interpolates gray values between pixels by bicubic interpolation (Catmull-Rom).
 
     Parameters
     ----------
     image : array_like, shape (H, W)
-        Gray; uint8 counts as value / 255.
+        Gray; uint8 values are divided by 255.
     pixel : array_like, shape (2,) or (N, 2)
         (u, v), pixel centers at integers.
     border : str or dict, optional
@@ -575,30 +576,30 @@ def warp_affine(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.WarpOptions],
 ) -> NDArray[Any]:
-    """Image moved by an affine map, as OpenCV's `warpAffine`.
+    """Warps an image by an affine map, as OpenCV's `warpAffine`.
 
     Parameters
     ----------
     image : array_like, shape (H, W) or (H, W, 3)
     out_from_image : array_like, shape (2, 3)
-        Pixels of the image to pixels of the result.
+        Affine map from pixels of the image to pixels of the result.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : WarpOptions
-        ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+        ``width`` and ``height``, pixels, those of the image by default; ``interpolation``,
         ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 
     Returns
     -------
     ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
 
     Raises
     ------
     epipole.DegenerateError
-        Map without an inverse.
+        If the map has no inverse.
     ValueError
-        Result of more than 2**32 pixels.
+        If the result has more than 2**32 pixels.
     """
 def warp_perspective(
     image: ArrayLike,
@@ -607,28 +608,28 @@ def warp_perspective(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.WarpOptions],
 ) -> NDArray[Any]:
-    """Image moved by a homography, as OpenCV's `warpPerspective`.
+    """Warps an image by a homography, as OpenCV's `warpPerspective`.
 
     Parameters
     ----------
     image : array_like, shape (H, W) or (H, W, 3)
     out_from_image : array_like, shape (3, 3)
-        Pixels of the image to pixels of the result, up to scale.
+        Homography from pixels of the image to pixels of the result, at any scale.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : WarpOptions
-        ``width`` and ``height``, pixels, those of the image if not given; ``interpolation``,
+        ``width`` and ``height``, pixels, those of the image by default; ``interpolation``,
         ``"bilinear"`` or ``"bicubic"``; ``border={"constant": 0.0}``, in units of the image.
 
     Returns
     -------
     ndarray of uint8 or float32, shape (height, width) or (height, width, 3)
-        uint8 for uint8, else float32.
+        uint8 for a uint8 image, else float32.
 
     Raises
     ------
     epipole.DegenerateError
-        Map without an inverse.
+        If the map has no inverse.
     ValueError
-        Result of more than 2**32 pixels.
+        If the result has more than 2**32 pixels.
     """

@@ -59,14 +59,14 @@ __all__ = [
 
 @final
 class NamedCamera:
-    """Camera and its name in a file.
+    """Camera with its name in a file.
 
     Parameters
     ----------
     name : str
     camera : Camera
     cam_from_world : RigidTransform, optional
-        Pose, of a format that has one.
+        Pose, for formats that have one.
     """
     def __new__(
         cls,
@@ -76,7 +76,7 @@ class NamedCamera:
     ) -> NamedCamera: ...
     @property
     def name(self) -> str:
-        """Name, number or image that the file gives; "camera", or "left" and "right", without one."""
+        """Name, number or image in the file; otherwise "camera", or "left" and "right"."""
     @property
     def camera(self) -> Camera:
         """Camera."""
@@ -88,15 +88,15 @@ class NamedCamera:
 
 @final
 class Cameras:
-    """Content of a file of cameras.
+    """Content of a camera file.
 
     Parameters
     ----------
     cameras : list of NamedCamera
     right_from_left : RigidTransform, optional
-        Motion of a rig, from the first camera to the second, in the unit of the file.
+        Motion of a rig from the first to the second camera, in the unit of the file.
     notes : list of str, optional
-        Sentences on cameras of a file that are left out.
+        Notes on cameras of the file that were skipped, as sentences.
     """
     def __new__(
         cls,
@@ -109,14 +109,14 @@ class Cameras:
         """Cameras in the order of the file, a list of `NamedCamera`."""
     @property
     def right_from_left(self) -> RigidTransform | None:
-        """Motion of a rig, from the first camera to the second, or None."""
+        """Motion of a rig from the first to the second camera, or None."""
     @property
     def notes(self) -> list[str]:
-        """Sentences on cameras of the file that are left out, as there is no such lens, a list of str."""
+        """Notes on cameras skipped because their lens is not supported, a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def of(camera: Camera) -> Cameras:
-        """Content with one camera.
+        """Creates content with one camera.
 
         Parameters
         ----------
@@ -124,7 +124,7 @@ class Cameras:
         """
     @staticmethod
     def of_rig(cameras: Sequence[Camera], right_from_left: RigidTransform) -> Cameras:
-        """Content with the two cameras of a rig.
+        """Creates content with the two cameras of a rig.
 
         Parameters
         ----------
@@ -133,7 +133,7 @@ class Cameras:
         right_from_left : epipole.camera.RigidTransform
         """
     def named(self, name: str) -> Camera:
-        """Camera of a name; `KeyError` without one.
+        """Returns the camera with a name; `KeyError` if there is none.
 
         Parameters
         ----------
@@ -142,7 +142,7 @@ class Cameras:
         Raises
         ------
         KeyError
-            No camera of this name.
+            If there is no camera of this name.
         """
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -151,15 +151,15 @@ def read_cameras(
     source: str | os.PathLike[str] | bytes,
     size: tuple[int, int] | None = None,
 ) -> tuple[str, Cameras]:
-    """Reads the cameras of a file; the format follows from its content.
+    """Reads the cameras of a file; the format is detected from its content.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
         File of Epipole, OpenCV, ROS, Kalibr, KITTI, ORB-SLAM, Middlebury, COLMAP, nerfstudio,
-        Metashape or MATLAB, or of plain numbers.
+        Metashape or MATLAB, or plain numbers.
     size : tuple of int, optional
-        Width and height of the images, pixels, for a file without them.
+        Width and height of the images, pixels, for files that lack them.
 
     Returns
     -------
@@ -169,17 +169,17 @@ def read_cameras(
     Raises
     ------
     ValueError
-        Unknown format, wrong or missing values, or a lens that the library does not have.
+        If the format is unknown, values are wrong or missing, or the lens model is not supported.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
-    """Reads Q of a rectified pair, from pixels with disparities to points.
+    """Reads Q of a rectified pair, which maps pixels with disparities to points.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
-        File with the key ``Q`` of OpenCV or of ``epipole rectify --json``, or sixteen numbers row
+        File with the key ``Q`` from OpenCV or ``epipole rectify --json``, or sixteen numbers, row
         by row.
 
     Returns
@@ -189,9 +189,9 @@ def read_q(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     Raises
     ------
     ValueError
-        No 16 finite numbers, or not the Q of a rectified pair.
+        If there are not 16 finite numbers, or they are not the Q of a rectified pair.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_cameras(
     path: str | os.PathLike[str],
@@ -209,28 +209,28 @@ def write_cameras(
     Raises
     ------
     ValueError
-        Unknown format, or a lens or number of cameras that it cannot hold.
+        If the format is unknown, or cannot hold a lens or this number of cameras.
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 @final
 class Decoded:
-    """Image and its file's data about the camera.
+    """Image, with camera data from its file.
 
     Parameters
     ----------
     image
         Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1].
     focal_px
-        First guess of the focal length from the EXIF data, pixels of this image, or None.
+        Initial guess of the focal length from the EXIF data, pixels of this image, or None.
     focal_mm
         Focal length from the EXIF data, millimeters, or None.
     place
-        Position of the camera, `epipole.math.Geodetic`, if the file has GPS data.
+        Position of the camera, an `epipole.math.Geodetic`, or None without GPS data.
     orientation
-        EXIF orientation of the file, 1 to 8, applied or not.
+        EXIF orientation of the file, 1 to 8, whether applied or not.
     range
-        Sample values that became black and white, if not those of the format.
+        Sample values that became black and white; None for those of the format.
     """
     def __new__(
         cls,
@@ -246,25 +246,25 @@ class Decoded:
         """Pixels: uint8 of shape (H, W, 3), or float32 of shape (H, W) in [0, 1]."""
     @property
     def focal_px(self) -> float | None:
-        """First guess of the focal length from the EXIF data, pixels of this image, or None."""
+        """Initial guess of the focal length from the EXIF data, pixels of this image, or None."""
     @property
     def focal_mm(self) -> float | None:
         """Focal length from the EXIF data, millimeters, or None."""
     @property
     def place(self) -> Geodetic | None:
-        """Position of the camera, `epipole.math.Geodetic`, if the file has GPS data."""
+        """Position of the camera, an `epipole.math.Geodetic`, or None without GPS data."""
     @property
     def orientation(self) -> int:
-        """EXIF orientation of the file, 1 to 8, applied or not."""
+        """EXIF orientation of the file, 1 to 8, whether applied or not."""
     @property
     def range(self) -> list[float] | None:
-        """Sample values that became black and white, if not those of the format."""
+        """Sample values that became black and white; None for those of the format."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PreparedPhoto:
-    """Photo that was turned upright, undistorted and downscaled.
+    """Photo after it was rotated upright, undistorted and downscaled.
 
     Parameters
     ----------
@@ -295,34 +295,34 @@ class PreparedPhoto:
         """Pixels, upright, uint8 of shape (H, W, 3)."""
     @property
     def focal_px(self) -> float | None:
-        """First guess of the focal length from the EXIF data, pixels of `image`, or None."""
+        """Initial guess of the focal length from the EXIF data, pixels of `image`, or None."""
     @property
     def focal_mm(self) -> float | None:
         """Focal length from the EXIF data, millimeters, or None."""
     @property
     def place(self) -> Geodetic | None:
-        """Position of the camera, `epipole.math.Geodetic`, or None."""
+        """Position of the camera, an `epipole.math.Geodetic`, or None."""
     @property
     def intrinsics(self) -> Intrinsics | None:
-        """K, if the distortion of a known lens was removed, or None."""
+        """K if the distortion of a known lens was removed, else None."""
     @property
     def full_size(self) -> tuple[int, int]:
-        """Width and height before it was reduced, upright."""
+        """Width and height before downscaling, upright."""
     @property
     def sensor_size(self) -> tuple[int, int]:
-        """Width and height before it was turned upright."""
+        """Width and height before the rotation."""
     @property
     def quarters(self) -> int | None:
-        """Number of clockwise quarter turns that made it upright; None if it was mirrored."""
+        """Number of clockwise quarter turns to the upright image; None if it was mirrored."""
     @property
     def range(self) -> list[float] | None:
-        """Sample values that became black and white, if not those of the format."""
+        """Sample values that became black and white; None for those of the format."""
     @property
     def is_as_stored(self) -> bool:
-        """Whether the pixels are those of the file."""
+        """Whether the pixels are unchanged from the file."""
     def __eq__(self, other: object, /) -> bool: ...
     def reduced_focal_px(self, focal_px: float) -> float:
-        """Focal length in pixels of `image`, from one in pixels before it was reduced.
+        """Converts a focal length to pixels of `image`, from pixels before downscaling.
 
         Parameters
         ----------
@@ -330,12 +330,12 @@ class PreparedPhoto:
             Focal length in the file, pixels.
         """
     def camera(self, camera: Camera) -> Camera | None:
-        """Camera of `image`; None for another size or a mirrored photo.
+        """Returns the camera of `image`; None for another size or a mirrored photo.
 
         Parameters
         ----------
         camera : epipole.camera.Camera
-            That of the sensor, or of the photo upright.
+            Camera of the sensor, or of the upright photo.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -346,31 +346,31 @@ def decode_rgb(
     apply_orientation: bool = True,
     range: str | Sequence[float] | None = None,
 ) -> Decoded:
-    """Color image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+    """Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a color image, with its EXIF data.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
     max_pixels : int, optional
-        Larger images are refused. 64 million if not given.
+        Larger images are rejected. 64 million by default.
     apply_orientation : bool, optional
-        Whether to turn the image upright by its EXIF orientation.
+        Whether to rotate the image upright by its EXIF orientation.
     range : str or tuple of float, optional
-        ``"auto"`` or ``"full"``, or the values that become black and white.
-        Sample values that become black and white: those in use, all of the format, or these.
+        Sample values that become black and white: ``"auto"`` for those in use, ``"full"`` for all
+        of the format, or a pair of values.
 
     Returns
     -------
     Decoded
-        Its `image` is uint8 of shape (H, W, 3).
+        `image` is uint8 of shape (H, W, 3).
 
     Raises
     ------
     ValueError
-        File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
-        unknown or empty.
+        If the file is damaged or not an image, it has more than ``max_pixels`` pixels, or ``range``
+        is unknown or empty.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def decode_gray(
     source: str | os.PathLike[str] | bytes,
@@ -379,34 +379,34 @@ def decode_gray(
     apply_orientation: bool = True,
     range: str | Sequence[float] | None = None,
 ) -> Decoded:
-    """Gray image of a PNG, JPEG, WebP, TIFF, BMP or PNM file, with its EXIF data.
+    """Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a gray image, with its EXIF data.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
     max_pixels : int, optional
-        Larger images are refused. 64 million if not given.
+        Larger images are rejected. 64 million by default.
     apply_orientation : bool, optional
-        Whether to turn the image upright by its EXIF orientation.
+        Whether to rotate the image upright by its EXIF orientation.
     range : str or tuple of float, optional
-        ``"auto"`` or ``"full"``, or the values that become black and white.
-        Sample values that become black and white: those in use, all of the format, or these.
+        Sample values that become black and white: ``"auto"`` for those in use, ``"full"`` for all
+        of the format, or a pair of values.
 
     Returns
     -------
     Decoded
-        Its `image` is float32 of shape (H, W), in [0, 1].
+        `image` is float32 of shape (H, W), in [0, 1].
 
     Raises
     ------
     ValueError
-        File that is no image or a damaged one, more than ``max_pixels`` pixels, or ``range``
-        unknown or empty.
+        If the file is damaged or not an image, it has more than ``max_pixels`` pixels, or ``range``
+        is unknown or empty.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def sensor_size(source: str | os.PathLike[str] | bytes) -> tuple[int, int]:
-    """Width and height of an image before its orientation is applied, from the header alone.
+    """Reads width and height of an image before its orientation is applied, from the header alone.
 
     Parameters
     ----------
@@ -419,9 +419,9 @@ def sensor_size(source: str | os.PathLike[str] | bytes) -> tuple[int, int]:
     Raises
     ------
     ValueError
-        File that is no image, or one with a damaged header.
+        If the file is not an image, or its header is damaged.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def prepare_photo(
     source: str | os.PathLike[str] | bytes,
@@ -432,7 +432,7 @@ def prepare_photo(
     sensor_width_mm: float | None = None,
     undistortion: Undistortion | None = None,
 ) -> PreparedPhoto:
-    """Color image of a file, undistorted, turned upright and downscaled.
+    """Reads a color image, undistorts it, rotates it upright and downscales it.
 
     Parameters
     ----------
@@ -440,12 +440,11 @@ def prepare_photo(
     max_pixels : int, optional
         Maximum number of pixels of the result.
     max_file_pixels : int, optional
-        Larger files are refused. 64 million if not given.
+        Larger files are rejected. 64 million by default.
     range : str or tuple of float, optional
-        ``"auto"`` or ``"full"``, or the values that become black and white.
-        As in `decode_rgb`.
+        Same as for `decode_rgb`.
     sensor_width_mm : float, optional
-        Length of the longer side of the sensor, millimeters, for files that have the focal length
+        Length of the longer side of the sensor, millimeters, for files that give the focal length
         in millimeters only.
     undistortion : epipole.calibration.Undistortion, optional
         Applied to images with the size of its camera.
@@ -457,10 +456,10 @@ def prepare_photo(
     Raises
     ------
     ValueError
-        File that is no image or a damaged one, more than ``max_file_pixels`` pixels, or ``range``
-        unknown or empty.
+        If the file is damaged or not an image, it has more than ``max_file_pixels`` pixels, or
+        ``range`` is unknown or empty.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 @final
 class ModelImage:
@@ -469,11 +468,11 @@ class ModelImage:
     Parameters
     ----------
     id : int
-        Number of the image in files that number them; no two are equal.
+        Number of the image in files with numbered images; unique.
     name : str
-        Name, mostly the path of its file within a folder of images.
+        Name, usually the path of its file within a folder of images.
     camera : int
-        Index of its camera.
+        Index of the image's camera.
     cam_from_world : RigidTransform
     keypoints : array_like, shape (N, 2)
         Pixels.
@@ -494,7 +493,7 @@ class ModelImage:
         """Name."""
     @property
     def camera(self) -> int:
-        """Index of its camera."""
+        """Index of the image's camera."""
     @property
     def cam_from_world(self) -> RigidTransform:
         """Pose: ``x_in_cam = cam_from_world @ x_in_world``."""
@@ -503,19 +502,19 @@ class ModelImage:
         """Keypoints, pixels, shape (N, 2)."""
     def __eq__(self, other: object, /) -> bool: ...
     def center_in_world(self) -> NDArray[np.float64]:
-        """Center of the camera in the world, shape (3,)."""
+        """Returns the center of the camera in the world, shape (3,)."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Rig:
-    """Cameras that are fixed to each other, and the moments in which they took images.
+    """Cameras mounted rigidly on each other, and the frames that they took.
 
     Parameters
     ----------
     id : int
-        Number of the rig in files that number them; no two are equal.
+        Number of the rig in files with numbered rigs; unique.
     cameras : list of tuple
-        Index of each camera and its ``cam_from_rig``, the identity of the first one.
+        Index of each camera and its ``cam_from_rig``, which is the identity for the first one.
     frames : list of tuple
         Number of each frame, its ``rig_from_world``, and the indices of its images.
     """
@@ -539,7 +538,7 @@ class Rig:
 
 @final
 class Model:
-    """Cameras, the images that they took, and points of the scene.
+    """Cameras, their images, and points of the scene.
 
     Parameters
     ----------
@@ -547,22 +546,22 @@ class Model:
     images : list of ModelImage
     points : array_like, shape (P, 3)
     tracks : array_like of int, shape (K, 3)
-        Observations: index of the point, of the image, and of its keypoint.
+        Observations: indices of the point, of the image, and of the image's keypoint.
     colors : array_like of uint8, shape (P, 3), optional
-        Red, green, blue. Gray if not given.
+        Red, green, blue. Gray by default.
     errors_px : list of float or None, optional
         Mean reprojection error of each point, pixels.
     camera_ids : list of int, optional
-        Number of each camera in files that number them. Counted from 1 if not given.
+        Number of each camera in files with numbered cameras. Counted from 1 by default.
     point_ids : list of int, optional
-        The same of the points.
+        Number of each point in files with numbered points. Counted from 1 by default.
     rigs : list of Rig, optional
-        Cameras that are fixed to each other.
+        Cameras mounted rigidly on each other.
 
     Raises
     ------
     ValueError
-        Track of a point that does not exist.
+        If a track refers to a missing point.
     """
     def __new__(
         cls,
@@ -587,29 +586,29 @@ class Model:
         """Points, shape (P, 3)."""
     @property
     def tracks(self) -> NDArray[np.int64]:
-        """Observations: index of the point, of the image, and of its keypoint, int64 of shape (K, 3)."""
+        """Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint."""
     @property
     def colors(self) -> NDArray[np.uint8]:
         """Colors of the points, uint8 of shape (P, 3)."""
     @property
     def errors_px(self) -> list[float | None]:
-        """Mean reprojection error of each point, pixels; None if the file has none."""
+        """Mean reprojection error of each point, pixels; None if the file lacks it."""
     @property
     def camera_ids(self) -> list[int]:
-        """Number of each camera in files that number them."""
+        """Number of each camera in files with numbered cameras."""
     @property
     def point_ids(self) -> list[int]:
-        """Number of each point in files that number them."""
+        """Number of each point in files with numbered points."""
     @property
     def rigs(self) -> list[Rig]:
-        """Cameras that are fixed to each other, a list of `Rig`."""
+        """Cameras mounted rigidly on each other, a list of `Rig`."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_reconstruction(
         reconstruction: Reconstruction,
         images: Sequence[SfmImage],
     ) -> Model:
-        """Model of a reconstruction; `images` are those that it was made from.
+        """Creates the model of a reconstruction and its `images`.
 
         Parameters
         ----------
@@ -618,53 +617,53 @@ class Model:
             Images of the input.
         """
     def to_reconstruction(self) -> tuple[Reconstruction, list[SfmImage]]:
-        """Reconstruction and its images.
+        """Returns the reconstruction and its images.
 
         Raises
         ------
         ValueError
-            Index of something that the model does not have.
+            If an index refers to a missing item of the model.
         """
     def cloud(self) -> PointCloud:
-        """Points without observations.
+        """Returns the points without their observations.
 
         Returns
         -------
         epipole.stereo.PointCloud
         """
     def num_observations(self) -> int:
-        """Number of observations of all points."""
+        """Returns the number of observations of all points."""
     def mean_reprojection_px(self) -> float | None:
-        """Mean length of all reprojection errors, pixels; None without observations.
+        """Computes the mean length of all reprojection errors, pixels; None without observations.
 
         Raises
         ------
         ValueError
-            Index of something that the model does not have.
+            If an index refers to a missing item of the model.
         """
     def oddities(self) -> list[str]:
-        """Oddities of the model, such as points behind cameras, a sentence each.
+        """Returns oddities of the model, such as points behind cameras, as sentences.
 
         Raises
         ------
         ValueError
-            Index of something that the model does not have.
+            If an index refers to a missing item of the model.
         """
     def losses(self, format: str) -> list[str]:
-        """Losses of a format, a sentence each.
+        """Returns the information that a format loses, as sentences.
 
         Parameters
         ----------
         format : str
-            Format of a file.
+            File format.
 
         Raises
         ------
         ValueError
-            Unknown format.
+            If the format is unknown.
         """
     def to_files(self, format: str) -> dict[str, Any]:
-        """Files of the model.
+        """Returns the files of the model.
 
         Parameters
         ----------
@@ -675,22 +674,22 @@ class Model:
         Returns
         -------
         dict
-            Bytes of each file by its usual name.
+            Content of each file by its usual name, as bytes.
 
         Raises
         ------
         ValueError
-            Unknown format, a camera that it cannot hold, or an index of something that the model
-            does not have.
+            If the format is unknown or cannot hold a camera, or an index refers to a missing item
+            of the model.
         """
     def write(self, folder: str | os.PathLike[str], format: str) -> list[Any]:
-        """Writes the files of the model into a folder, which is created if needed.
+        """Writes the files of the model to a folder, which is created if needed.
 
         Parameters
         ----------
         folder : str or os.PathLike
         format : str
-            As in `to_files`.
+            Same as for `to_files`.
 
         Returns
         -------
@@ -700,16 +699,16 @@ class Model:
         Raises
         ------
         ValueError
-            Unknown format, a camera that it cannot hold, or an index of something that the model
-            does not have.
+            If the format is unknown or cannot hold a camera, or an index refers to a missing item
+            of the model.
         OSError
-            Folder or file that cannot be written.
+            If a folder or file cannot be written.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class ReadModel:
-    """Model that was read.
+    """Model as read from files.
 
     Parameters
     ----------
@@ -718,7 +717,7 @@ class ReadModel:
     model
         Model.
     notes
-        Sentences on what was left out or assumed.
+        Notes on skipped content and assumptions, as sentences.
     """
     def __new__(cls, format: str, model: Model, notes: Sequence[str]) -> ReadModel: ...
     @property
@@ -729,7 +728,7 @@ class ReadModel:
         """Model."""
     @property
     def notes(self) -> list[str]:
-        """Sentences on what was left out or assumed."""
+        """Notes on skipped content and assumptions, as sentences."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -749,14 +748,14 @@ def read_model_folder(folder: str | os.PathLike[str]) -> ReadModel:
     Raises
     ------
     ValueError
-        Damaged or incomplete model, or a camera that the library does not have.
+        If the model is damaged or incomplete, or a camera model is not supported.
     FileNotFoundError
-        No model in the folder, or no folder.
+        If the folder does not exist or holds no model.
     OSError
-        Folder that cannot be read.
+        If the folder cannot be read.
     """
 def read_model_file(path: str | os.PathLike[str]) -> ReadModel:
-    """Reads a model of one file; files beside it are read if the format needs them.
+    """Reads a model from one file; related files are read if the format needs them.
 
     Parameters
     ----------
@@ -769,9 +768,9 @@ def read_model_file(path: str | os.PathLike[str]) -> ReadModel:
     Raises
     ------
     ValueError
-        Unknown format, damaged model, or a camera that the library does not have.
+        If the format is unknown, the model is damaged, or a camera model is not supported.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, list[str]]:
     """Reads the points of a PLY file.
@@ -784,14 +783,14 @@ def read_ply(source: str | os.PathLike[str] | bytes) -> tuple[PointCloud, list[s
     -------
     cloud : epipole.stereo.PointCloud
     notes : list of str
-        Sentences on what was left out: points with NaN or infinity, faces of a mesh.
+        Notes on skipped content, as sentences: points with NaN or infinity, faces of a mesh.
 
     Raises
     ------
     ValueError
-        File that is no PLY, or a damaged one.
+        If the file is damaged or is not a PLY file.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> None:
     """Writes points as a binary PLY file.
@@ -804,7 +803,7 @@ def write_ply(path: str | os.PathLike[str], cloud: PointCloud | ArrayLike) -> No
     Raises
     ------
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 def read_pfm(source: str | os.PathLike[str] | bytes) -> NDArray[np.float32]:
     """Reads the disparities of a gray PFM file.
@@ -821,12 +820,12 @@ def read_pfm(source: str | os.PathLike[str] | bytes) -> NDArray[np.float32]:
     Raises
     ------
     ValueError
-        File that is no gray PFM, or a truncated one.
+        If the file is truncated or is not a gray PFM file.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_pfm(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
-    """Writes disparities as a gray PFM file, the format of Middlebury.
+    """Writes disparities as a gray PFM file, the format of the Middlebury benchmark.
 
     Parameters
     ----------
@@ -837,10 +836,10 @@ def write_pfm(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     Raises
     ------
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
-    """Writes disparities times 256 as a 16-bit PNG file, the format of KITTI.
+    """Writes disparities times 256 as a 16-bit PNG file, the format of the KITTI benchmark.
 
     Parameters
     ----------
@@ -851,12 +850,12 @@ def write_png16(path: str | os.PathLike[str], disparity: ArrayLike) -> None:
     Raises
     ------
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
     """Reads a pose graph in the text format of g2o: SE2, SE3:QUAT or SIM3:QUAT, with priors.
 
-    Landmarks that are points are vertices without a rotation; others are left out, with a warning.
+    Point landmarks become vertices without a rotation; others are skipped, with a warning.
 
     Parameters
     ----------
@@ -869,10 +868,10 @@ def read_g2o(source: str | os.PathLike[str] | bytes) -> PoseGraph:
     Raises
     ------
     ValueError
-        Unknown tag, mixed kinds, vertices that are missing or double, wrong numbers, or no
-        vertices.
+        If a tag is unknown, kinds are mixed, vertices are missing or duplicate, numbers are wrong,
+        or there are no vertices.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_g2o(path: str | os.PathLike[str], graph: PoseGraph) -> None:
     """Writes a pose graph in the text format of g2o.
@@ -885,7 +884,7 @@ def write_g2o(path: str | os.PathLike[str], graph: PoseGraph) -> None:
     Raises
     ------
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 def read_bal(source: str | os.PathLike[str] | bytes) -> BalProblem:
     """Reads a bundle adjustment problem of the BAL data set.
@@ -901,9 +900,10 @@ def read_bal(source: str | os.PathLike[str] | bytes) -> BalProblem:
     Raises
     ------
     ValueError
-        Missing, surplus or infinite numbers, or an index of no camera or point.
+        If numbers are missing, surplus or infinite, or an index refers to a missing camera or
+        point.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_bal(path: str | os.PathLike[str], problem: BalProblem) -> None:
     """Writes a bundle adjustment problem of the BAL data set, with all digits.
@@ -916,14 +916,14 @@ def write_bal(path: str | os.PathLike[str], problem: BalProblem) -> None:
     Raises
     ------
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 def write_mesh(
     path: str | os.PathLike[str],
     mesh: Mesh,
     texture: MeshTexture | None = None,
 ) -> None:
-    """Writes a mesh as PLY, glTF or OBJ, by the extension of the file.
+    """Writes a mesh as PLY, glTF or OBJ, depending on the extension of the file.
 
     Parameters
     ----------
@@ -931,23 +931,25 @@ def write_mesh(
         Ends in ``.ply``, ``.glb`` or ``.obj``.
     mesh : epipole.mvs.Mesh
     texture : epipole.mvs.MeshTexture, optional
-        Instead of the colors of the vertices, for ``.glb`` and ``.obj``. The material and the image
-        of an OBJ file are written beside it, with the extensions ``.mtl`` and ``.jpg``.
+        Replaces the vertex colors, for ``.glb`` and ``.obj``. Material and image of an OBJ file are
+        written to the same folder, with the extensions ``.mtl`` and ``.jpg``.
 
     Raises
     ------
     ValueError
-        Another extension, a texture for PLY, or a triangle of a vertex that does not exist.
+        If the extension is another one, a PLY file is to get a texture, or a triangle refers to a
+        missing vertex.
     """
 def read_matches(
     source: str | os.PathLike[str] | bytes,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Reads matches of two images: ``u1 v1 u2 v2`` a line, pixels.
+    """Reads matches of two images: ``u1 v1 u2 v2`` per line, pixels.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
-        Numbers between commas, semicolons, tabs or spaces; a first line of names allows any order.
+        Numbers separated by commas, semicolons, tabs or spaces, in any order if a header names
+        them.
 
     Returns
     -------
@@ -956,13 +958,13 @@ def read_matches(
     Raises
     ------
     ValueError
-        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
         rows.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def read_points(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
-    r"""Reads points of an image: ``u v`` a line, pixels.
+    r"""Reads points of an image: ``u v`` per line, pixels.
 
     Parameters
     ----------
@@ -975,10 +977,10 @@ def read_points(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
     Raises
     ------
     ValueError
-        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
         rows.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
 
     Examples
     --------
@@ -988,7 +990,7 @@ def read_points(source: str | os.PathLike[str] | bytes) -> NDArray[np.float64]:
 def read_points_with_pixels(
     source: str | os.PathLike[str] | bytes,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Reads points of the world with their pixels: ``x y z u v`` a line.
+    """Reads world points with their pixels: ``x y z u v`` per line.
 
     Parameters
     ----------
@@ -1002,10 +1004,10 @@ def read_points_with_pixels(
     Raises
     ------
     ValueError
-        Line with a missing number, NaN or an ambiguous comma, or a first column that counts the
+        If a line has a missing number, NaN or an ambiguous comma, or the first column counts the
         rows.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_matches(
     path: str | os.PathLike[str],
@@ -1015,24 +1017,23 @@ def write_matches(
     ratios: ArrayLike | None = None,
     layout: str = 'text',
 ) -> None:
-    """Writes matches: ``u1 v1 u2 v2 distance ratio`` a line, or ``u1 v1 u2 v2`` without ``distances``
-    and ``ratios``.
+    """Writes matches, one per line: ``u1 v1 u2 v2``, then distance and ratio if given.
 
     Parameters
     ----------
     path : str or os.PathLike
     pixels1, pixels2 : array_like, shape (N, 2)
     distances, ratios : array_like, shape (N,), optional
-        Distance of the descriptors, and its ratio to that of the second nearest. 0 if only the
-        other is given.
+        Distance between the descriptors, and its ratio to the distance of the second nearest
+        descriptor. If only one of the two is given, the other is written as 0.
     layout : {"text", "csv"}, optional
 
     Raises
     ------
     ValueError
-        Unknown ``layout``.
+        If ``layout`` is unknown.
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """
 @final
 class Trajectory:
@@ -1042,9 +1043,9 @@ class Trajectory:
     ----------
     world_from_cam : list of RigidTransform
     stamps_ns : array_like of int, shape (N,), optional
-        Time of each pose, nanoseconds, not descending.
+        Time of each pose, nanoseconds, not decreasing.
     notes : list of str, optional
-        Sentences on what a reader assumed.
+        Assumptions of a reader, as sentences.
     """
     def __new__(
         cls,
@@ -1060,7 +1061,7 @@ class Trajectory:
         """Time of each pose, nanoseconds, int64 of shape (N,), or None."""
     @property
     def notes(self) -> list[str]:
-        """Sentences on what a reader assumed, a list of str."""
+        """Assumptions of a reader, as sentences, a list of str."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -1068,12 +1069,12 @@ class Trajectory:
 def read_trajectory(
     source: str | os.PathLike[str] | bytes,
 ) -> tuple[Literal["tum", "kitti", "euroc"], Trajectory]:
-    """Reads a trajectory; the format follows from its content.
+    """Reads a trajectory; the format is detected from its content.
 
     Parameters
     ----------
     source : str, os.PathLike or bytes
-        File of TUM, KITTI or EuRoC.
+        TUM, KITTI or EuRoC file.
 
     Returns
     -------
@@ -1083,10 +1084,10 @@ def read_trajectory(
     Raises
     ------
     ValueError
-        Unknown format, wrong numbers, zero quaternions, matrices that are no rotation, or times
-        that go backwards.
+        If the format is unknown, numbers are wrong, a quaternion is zero, a matrix is not a
+        rotation, or times decrease.
     OSError
-        File that cannot be read.
+        If the file cannot be read.
     """
 def write_trajectory(
     path: str | os.PathLike[str],
@@ -1100,12 +1101,12 @@ def write_trajectory(
     path : str or os.PathLike
     trajectory : Trajectory
     format : {"tum", "kitti", "euroc"}, optional
-        "kitti" has no times, the others need them.
+        "kitti" has no times, the other formats require them.
 
     Raises
     ------
     ValueError
-        Unknown format, or no times for TUM or EuRoC.
+        If the format is unknown, or times are missing for TUM or EuRoC.
     OSError
-        File that cannot be written.
+        If the file cannot be written.
     """

@@ -17,27 +17,27 @@ __all__ = [
 
 @final
 class Geodetic:
-    """Place on the earth (WGS 84).
+    """Position on the earth (WGS 84).
 
     Parameters
     ----------
     latitude_deg : float
-        North of the equator, degrees, -90 to 90.
+        Latitude north of the equator, degrees, -90 to 90.
     longitude_deg : float
-        East of Greenwich, degrees, -180 to 180.
+        Longitude east of Greenwich, degrees, -180 to 180.
     height_m : float
-        Above the ellipsoid, meters.
+        Height above the ellipsoid, meters.
     """
     def __new__(cls, latitude_deg: float, longitude_deg: float, height_m: float) -> Geodetic: ...
     @property
     def latitude_deg(self) -> float:
-        """North of the equator, degrees."""
+        """Latitude north of the equator, degrees."""
     @property
     def longitude_deg(self) -> float:
-        """East of Greenwich, degrees."""
+        """Longitude east of Greenwich, degrees."""
     @property
     def height_m(self) -> float:
-        """Above the ellipsoid, meters."""
+        """Height above the ellipsoid, meters."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -48,12 +48,12 @@ class Line2:
     Parameters
     ----------
     line : array_like, shape (3,)
-        Homogeneous line, of any scale.
+        Homogeneous line, at any scale.
 
     Raises
     ------
     epipole.DegenerateError
-        Line (0, 0, c).
+        If the line is (0, 0, c).
     """
     def __new__(cls, line: ArrayLike) -> Line2: ...
     @property
@@ -61,31 +61,31 @@ class Line2:
         """(a, b, c), shape (3,)."""
     @property
     def a(self) -> float:
-        """The normal's component along u."""
+        """Component of the normal along u."""
     @property
     def b(self) -> float:
-        """The normal's component along v."""
+        """Component of the normal along v."""
     @property
     def c(self) -> float:
-        """Minus the signed distance of the origin along the normal."""
+        """Negated signed distance of the origin along the normal."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_homogeneous(line: ArrayLike) -> Line2:
-        """Line of a homogeneous vector.
+        """Creates the line of a homogeneous vector.
 
         Parameters
         ----------
         line : array_like, shape (3,)
-            Of any scale.
+            At any scale.
 
         Raises
         ------
         epipole.DegenerateError
-            Line (0, 0, c).
+            If the line is (0, 0, c).
         """
     @staticmethod
     def through(p: ArrayLike, q: ArrayLike) -> Line2:
-        """Line through two points.
+        """Creates the line through two points.
 
         Parameters
         ----------
@@ -94,19 +94,19 @@ class Line2:
         Raises
         ------
         epipole.DegenerateError
-            Equal points.
+            If the points are equal.
         """
     def homogeneous(self) -> NDArray[np.float64]:
-        """(a, b, c), shape (3,)."""
+        """Returns (a, b, c), shape (3,)."""
     def signed_distance(self, point: ArrayLike) -> float:
-        """Signed distance of a point.
+        """Returns the signed distance of a point.
 
         Parameters
         ----------
         point : array_like, shape (2,)
         """
     def nearest(self, point: ArrayLike) -> NDArray[np.float64]:
-        """Point of the line nearest to a point.
+        """Returns the point of the line nearest to a point.
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Line2:
         ndarray, shape (2,)
         """
     def angle_rad(self) -> float:
-        """Angle of the line against u, radians."""
+        """Returns the angle of the line to the u axis, radians."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -127,11 +127,11 @@ class Svd3:
     Parameters
     ----------
     u
-        Left singular vectors in its columns, shape (3, 3).
+        Left singular vectors as columns, shape (3, 3).
     singular_values
-        Largest first, none negative, shape (3,).
+        Singular values, largest first, none negative, shape (3,).
     v
-        Right singular vectors in its columns, shape (3, 3).
+        Right singular vectors as columns, shape (3, 3).
     """
     def __new__(
         cls,
@@ -141,18 +141,18 @@ class Svd3:
     ) -> Svd3: ...
     @property
     def u(self) -> NDArray[np.float64]:
-        """Left singular vectors in its columns, shape (3, 3)."""
+        """Left singular vectors as columns, shape (3, 3)."""
     @property
     def singular_values(self) -> NDArray[np.float64]:
-        """Largest first, none negative, shape (3,)."""
+        """Singular values, largest first, none negative, shape (3,)."""
     @property
     def v(self) -> NDArray[np.float64]:
-        """Right singular vectors in its columns, shape (3, 3)."""
+        """Right singular vectors as columns, shape (3, 3)."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def local_from_geodetic(place: Geodetic, origin: Geodetic) -> NDArray[np.float64]:
-    """East, north and up of a place relative to another.
+    """Converts a position to east, north and up relative to an origin.
 
     Parameters
     ----------
@@ -166,10 +166,10 @@ def local_from_geodetic(place: Geodetic, origin: Geodetic) -> NDArray[np.float64
     Raises
     ------
     ValueError
-        Latitude outside -90° to 90°, or longitude outside -180° to 180°.
+        If the latitude is outside -90° to 90°, or the longitude outside -180° to 180°.
     """
 def svd3(matrix: ArrayLike) -> Svd3:
-    """Singular value decomposition of a matrix.
+    """Computes the singular value decomposition of a matrix.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def svd3(matrix: ArrayLike) -> Svd3:
     Svd3
     """
 def length(vector: ArrayLike) -> float:
-    """Length of a vector.
+    """Computes the length of a vector.
 
     Parameters
     ----------
@@ -206,27 +206,27 @@ class Random:
     """
     def __new__(cls, seed: int) -> Random: ...
     def below(self, bound: int) -> int:
-        """Integer below a bound, which is > 0.
+        """Returns an integer below a bound.
 
         Parameters
         ----------
         bound : int
-            Upper end, > 0.
+            Upper bound, > 0, exclusive.
 
         Raises
         ------
         ValueError
-            ``bound`` of 0.
+            If ``bound`` is 0.
         """
     def unit(self) -> float:
-        """Number in [0, 1)."""
+        """Returns a number in [0, 1)."""
     def uniform(self, low: float, high: float) -> float:
-        """Number in [low, high).
+        """Returns a number in [low, high).
 
         Parameters
         ----------
         low, high : float
-            Ends of the interval.
+            Bounds of the interval.
         """
     def normal(self) -> float:
-        """Number of the standard normal distribution."""
+        """Returns a number from the standard normal distribution."""

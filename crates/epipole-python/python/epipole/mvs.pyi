@@ -26,20 +26,20 @@ __all__ = [
 
 @final
 class MvsView:
-    """Photo without distortion, its neighbors and its range of depths.
+    """Undistorted photo with its neighbors and depth range.
 
     Parameters
     ----------
     photo : int
-        Index of its image in the reconstruction.
+        Index of the image in the reconstruction.
     camera : PosedCamera
-        Without distortion, of the size of the image.
+        Camera without distortion, with the size of the image.
     image : array_like of uint8, shape (H, W, 3)
         Red, green, blue.
     neighbors : list of int
-        Indices of the views that it is compared with, best first.
+        Indices of the views to compare with, best first.
     depth_range : tuple of float
-        Smallest and largest depth that is looked for.
+        Minimum and maximum depth to search.
     """
     def __new__(
         cls,
@@ -51,19 +51,19 @@ class MvsView:
     ) -> MvsView: ...
     @property
     def photo(self) -> int:
-        """Index of its image in the reconstruction."""
+        """Index of the image in the reconstruction."""
     @property
     def camera(self) -> PosedCamera:
         """Camera without distortion."""
     @property
     def image(self) -> NDArray[np.uint8]:
-        """Pixels without distortion, uint8 of shape (H, W, 3)."""
+        """Undistorted pixels, uint8 of shape (H, W, 3)."""
     @property
     def neighbors(self) -> list[int]:
-        """Indices of the views that it is compared with, best first."""
+        """Indices of the views to compare with, best first."""
     @property
     def depth_range(self) -> tuple[float, float]:
-        """Smallest and largest depth that is looked for."""
+        """Minimum and maximum depth to search."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -78,7 +78,7 @@ class DepthMap:
     normals : array_like, shape (H, W, 3)
         Unit normals in the camera's frame, towards the camera; zero where unknown.
     num_views : array_like of uint8, shape (H, W)
-        Number of photos that agree on the depth, this one among them; 0 where unknown.
+        Number of photos that agree on the depth, including this one; 0 where unknown.
 
     Examples
     --------
@@ -95,10 +95,10 @@ class DepthMap:
         """Unit normals in the camera's frame, float32 of shape (H, W, 3)."""
     @property
     def num_views(self) -> NDArray[np.uint8]:
-        """Number of photos that agree on the depth, uint8 of shape (H, W)."""
+        """Number of photos that agree on the depth, including this one, uint8 of shape (H, W)."""
     @property
     def density(self) -> float:
-        """Share of pixels with a depth."""
+        """Fraction of pixels with a depth."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -109,19 +109,19 @@ def prepare_views(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.MvsOptions],
 ) -> list[MvsView]:
-    """Undistorts and downscales photos, and chooses the neighbors and the depth range of each.
+    """Undistorts and downscales photos, and chooses neighbors and a depth range for each.
 
-    Photos that share no points with another under a sufficient angle are left out.
+    Photos without common points with another one at a sufficient angle are skipped.
 
     Parameters
     ----------
     reconstruction : epipole.sfm.Reconstruction
     photos : list of array_like
-        uint8 of shape (H, W, 3), one for each image of the reconstruction, of its camera's size.
+        uint8 of shape (H, W, 3), one per image of the reconstruction, with its camera's size.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MvsOptions
-        ``max_size_px``, ``num_neighbors`` and ``min_angle_deg`` matter here.
+        Relevant here are ``max_size_px``, ``num_neighbors`` and ``min_angle_deg``.
 
     Returns
     -------
@@ -130,11 +130,11 @@ def prepare_views(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images with a camera, or no points.
+        If there are fewer than 2 images with a camera, or no points.
     epipole.DegenerateError
-        No two photos that show the same points from different places.
+        If no two photos show the same points from different positions.
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def estimate_depth_maps(
     views: Sequence[MvsView],
@@ -143,7 +143,7 @@ def estimate_depth_maps(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.MvsOptions],
 ) -> list[DepthMap]:
-    """Finds the depth and normal of each pixel of each view by PatchMatch.
+    """Estimates depth and normal of each pixel of each view by PatchMatch.
 
     A depth is kept if enough views agree on it.
 
@@ -151,7 +151,7 @@ def estimate_depth_maps(
     ----------
     views : list of MvsView
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MvsOptions
 
     Returns
@@ -161,9 +161,9 @@ def estimate_depth_maps(
     Raises
     ------
     epipole.DegenerateError
-        Camera with distortion.
+        If a camera has distortion.
     ValueError
-        Option, neighbor or depth range out of range.
+        If an option, neighbor or depth range is out of range.
     """
 def fuse_depth_maps(
     views: Sequence[MvsView],
@@ -172,15 +172,15 @@ def fuse_depth_maps(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.MvsOptions],
 ) -> PointCloud:
-    """Joins depth maps to one cloud with normals, colors and confidences.
+    """Fuses depth maps to a point cloud with normals, colors and confidences.
 
     Parameters
     ----------
     views : list of MvsView
     maps : list of DepthMap
-        Those of `estimate_depth_maps`.
+        See `estimate_depth_maps`.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MvsOptions
 
     Returns
@@ -190,18 +190,18 @@ def fuse_depth_maps(
     Raises
     ------
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 @final
 class Mesh:
-    """Surface of triangles.
+    """Triangle mesh.
 
     Parameters
     ----------
     vertices : epipole.stereo.PointCloud
         Points with normals and colors.
     triangles : ndarray of uint32, shape (M, 3)
-        Indices of the vertices, counterclockwise seen from outside.
+        Indices of the vertices, counterclockwise when viewed from outside.
     """
     def __new__(cls, vertices: PointCloud, triangles: NDArray[np.uint32]) -> Mesh: ...
     @property
@@ -209,7 +209,7 @@ class Mesh:
         """Vertices."""
     @property
     def triangles(self) -> NDArray[np.uint32]:
-        """Indices of the vertices, uint32 of shape (M, 3), counterclockwise seen from outside."""
+        """Indices of the vertices, uint32 of shape (M, 3), counterclockwise when viewed from outside."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -221,17 +221,17 @@ def mesh_depth_maps(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.MeshOptions],
 ) -> Mesh:
-    """Joins depth maps to a mesh with normals and colors.
+    """Fuses depth maps to a mesh with normals and colors.
 
-    The surface has holes where no photo sees it.
+    The surface has holes where no photo shows it.
 
     Parameters
     ----------
     views : list of MvsView
     maps : list of DepthMap
-        Those of `estimate_depth_maps`.
+        See `estimate_depth_maps`.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : MeshOptions
 
     Returns
@@ -241,20 +241,20 @@ def mesh_depth_maps(
     Raises
     ------
     epipole.TooFewError
-        No pixel has a depth.
+        If no pixel has a depth.
     ValueError
-        Voxels too small for the scene.
+        If the voxels are too small for the scene.
     """
 @final
 class MeshTexture:
-    """Texture of a mesh: an image, and a pixel of it for each corner of each triangle.
+    """Texture of a mesh: an image, with a pixel position for each corner of each triangle.
 
     Parameters
     ----------
     image
         Red, green and blue, uint8 of shape (H, W, 3).
     corners
-        Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2).
+        Pixel of each corner of each triangle, centers at integers, float32 of shape (M, 3, 2).
     """
     def __new__(cls, image: NDArray[np.uint8], corners: NDArray[np.float32]) -> MeshTexture: ...
     @property
@@ -262,7 +262,7 @@ class MeshTexture:
         """Red, green and blue, uint8 of shape (H, W, 3)."""
     @property
     def corners(self) -> NDArray[np.float32]:
-        """Pixels of the corners of each triangle, centers at integers, float32 of shape (M, 3, 2)."""
+        """Pixel of each corner of each triangle, centers at integers, float32 of shape (M, 3, 2)."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -275,16 +275,16 @@ def texture_mesh(
 ) -> MeshTexture:
     """Textures a mesh with the photos.
 
-    Each triangle takes the photo that shows it largest, with few seams, and colors are adjusted to
-    agree along seams.
+    Each triangle is textured from the photo that shows it at the largest size, with few seams;
+    colors are adjusted to agree along seams.
 
     Parameters
     ----------
     mesh : Mesh
     views : list of MvsView
-        Those of `prepare_views`.
+        See `prepare_views`.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : TextureOptions
 
     Returns
@@ -294,7 +294,7 @@ def texture_mesh(
     Raises
     ------
     epipole.TooFewError
-        No views or no triangles.
+        If there are no views or no triangles.
     ValueError
-        Option out of range, or triangle of a vertex that does not exist.
+        If an option is out of range, or a triangle refers to a missing vertex.
     """

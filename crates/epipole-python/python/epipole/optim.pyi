@@ -18,23 +18,23 @@ __all__ = [
 
 @final
 class Iteration:
-    """One tried step.
+    """One attempted step.
 
     Parameters
     ----------
     index
-        Counted from 1; 0 is the start.
+        Index from 1; 0 is the initial state.
     cost
         Best cost so far.
     damping
         Damping of this step.
     accepted
-        Whether the step lowered the cost and was kept.
+        Whether the step reduced the cost and was accepted.
     """
     def __new__(cls, index: int, cost: float, damping: float, accepted: bool) -> Iteration: ...
     @property
     def index(self) -> int:
-        """Counted from 1; 0 is the start."""
+        """Index from 1; 0 is the initial state."""
     @property
     def cost(self) -> float:
         """Best cost so far."""
@@ -43,29 +43,29 @@ class Iteration:
         """Damping of this step."""
     @property
     def accepted(self) -> bool:
-        """Whether the step lowered the cost and was kept."""
+        """Whether the step reduced the cost and was accepted."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class LmReport:
-    """Outcome of a minimization.
+    """Report of a minimization.
 
     Parameters
     ----------
     initial_cost
-        Cost of the starting parameters.
+        Cost of the initial parameters.
     final_cost
-        Cost of the parameters returned.
+        Cost of the final parameters.
     iterations
-        Steps tried.
+        Number of steps tried.
     accepted
-        Steps kept.
+        Number of steps accepted.
     termination
-        Why the loop ended: "small_gradient", "small_step", "small_cost_change",
+        Reason the loop ended: "small_gradient", "small_step", "small_cost_change",
         "max_iterations" or "stuck".
     history
-        The start and every step tried, a list of `Iteration`.
+        Initial state and every step tried, a list of `Iteration`.
     """
     def __new__(
         cls,
@@ -78,24 +78,24 @@ class LmReport:
     ) -> LmReport: ...
     @property
     def initial_cost(self) -> float:
-        """Cost of the starting parameters."""
+        """Cost of the initial parameters."""
     @property
     def final_cost(self) -> float:
-        """Cost of the parameters returned."""
+        """Cost of the final parameters."""
     @property
     def iterations(self) -> int:
-        """Steps tried."""
+        """Number of steps tried."""
     @property
     def accepted(self) -> int:
-        """Steps kept."""
+        """Number of steps accepted."""
     @property
     def termination(self) -> str:
-        """Why the loop ended: "small_gradient", "small_step", "small_cost_change",
+        """Reason the loop ended: "small_gradient", "small_step", "small_cost_change",
         "max_iterations" or "stuck".
         """
     @property
     def history(self) -> list[Iteration]:
-        """The start and every step tried, a list of `Iteration`."""
+        """Initial state and every step tried, a list of `Iteration`."""
     def __eq__(self, other: object, /) -> bool: ...
     def is_converged(self) -> bool:
         """Whether the loop converged."""
@@ -111,7 +111,7 @@ def minimize_dense(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.LmOptions],
 ) -> tuple[NDArray[np.float64], LmReport]:
-    """Parameters with the least sum of squared residuals, by Levenberg-Marquardt and QR.
+    """Minimizes the sum of squared residuals by Levenberg-Marquardt with QR.
 
     Parameters
     ----------
@@ -120,14 +120,14 @@ def minimize_dense(
     jacobian : callable
         Jacobian of shape (M, N) at parameters of shape (N,).
     parameters : array_like, shape (N,)
-        Start.
+        Initial parameters.
     loss : str or dict, optional
-        Loss of each residual: ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``,
+        Loss of each residual: ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and
         ``"truncated"`` likewise.
     held : list of bool, optional
-        Parameters that stay fixed; missing entries are free.
+        Parameters held fixed; missing entries are free.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : LmOptions
         ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
         ``initial_damping``, ``patience``.
@@ -140,16 +140,16 @@ def minimize_dense(
     Raises
     ------
     epipole.TooFewError
-        No residuals or no parameters.
+        If there are no residuals or no parameters.
     ValueError
-        Loss width not above 0, or no finite cost or gradient at the start.
+        If the loss width is not above 0, or the initial cost or gradient is not finite.
     """
 def check_jacobian(
     analytic: ArrayLike,
     residuals: Callable[..., Any],
     step: float = 1e-06,
 ) -> float:
-    """Largest difference between a Jacobian and central differences.
+    """Computes the maximum difference between a Jacobian and central differences.
 
     Parameters
     ----------
@@ -157,17 +157,18 @@ def check_jacobian(
     residuals : callable
         Residuals of shape (M,) after a step of shape (N,).
     step : float, optional
-        Length of the differences.
+        Step size of the differences.
 
     Returns
     -------
     float
-        Each entry relative to the larger of 1 and its size; infinity for other shapes and NaN.
+        Each difference is relative to the entry's magnitude or 1, whichever is larger; infinity for
+        other shapes and NaN.
 
     Raises
     ------
     ValueError
-        ``step`` not above 0.
+        If ``step`` is not above 0.
 
     Examples
     --------

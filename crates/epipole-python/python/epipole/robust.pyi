@@ -40,27 +40,27 @@ class RansacReport(Generic[_Model]):
     model
         Best model.
     inliers
-        Whether each datum is an inlier, boolean array of shape (N,).
+        Whether each data point is an inlier, boolean array of shape (N,).
     num_inliers
         Number of inliers.
     num_unique_inliers
-        Number of inliers, equal data counted once: the support of the model.
+        Number of unique inliers, which is the support of the model.
     num_left_out
-        Number of data left out: a coordinate that is infinite or beyond 1e9 pixels.
+        Number of data points ignored because a coordinate is infinite or beyond 1e9 pixels.
     iterations
-        Samples drawn.
+        Number of samples drawn.
     required_iterations
-        Number of samples required by the final inlier ratio.
+        Number of samples required at the final inlier ratio.
     max_error_px
-        Threshold of inliers, pixels.
+        Inlier threshold, pixels.
     score
         Score of the model.
     log10_false_alarms
-        Expected number of such models in data without structure, as log10; None if unknown.
+        Expected number of models with this support by chance, as log10; None if unknown.
     refinements
-        Number of times a model was improved from its inliers.
+        Number of times a model was refined from its inliers.
     stop
-        Why the search ended: "confident", "exhausted" or "interrupted".
+        Reason the search ended: "confident", "exhausted" or "interrupted".
     """
     def __new__(
         cls,
@@ -82,42 +82,42 @@ class RansacReport(Generic[_Model]):
         """Best model."""
     @property
     def inliers(self) -> NDArray[np.bool_]:
-        """Whether each datum is an inlier, boolean array of shape (N,)."""
+        """Whether each data point is an inlier, boolean array of shape (N,)."""
     @property
     def num_inliers(self) -> int:
         """Number of inliers."""
     @property
     def num_unique_inliers(self) -> int:
-        """Number of inliers, equal data counted once: the support of the model."""
+        """Number of unique inliers, which is the support of the model."""
     @property
     def num_left_out(self) -> int:
-        """Number of data left out: a coordinate that is infinite or beyond 1e9 pixels."""
+        """Number of data points ignored because a coordinate is infinite or beyond 1e9 pixels."""
     @property
     def iterations(self) -> int:
-        """Samples drawn."""
+        """Number of samples drawn."""
     @property
     def required_iterations(self) -> int:
-        """Number of samples required by the final inlier ratio."""
+        """Number of samples required at the final inlier ratio."""
     @property
     def max_error_px(self) -> float:
-        """Threshold of inliers, pixels."""
+        """Inlier threshold, pixels."""
     @property
     def score(self) -> float:
         """Score of the model."""
     @property
     def log10_false_alarms(self) -> float | None:
-        """Expected number of such models in data without structure, as log10; None if unknown."""
+        """Expected number of models with this support by chance, as log10; None if unknown."""
     @property
     def refinements(self) -> int:
-        """Number of times a model was improved from its inliers."""
+        """Number of times a model was refined from its inliers."""
     @property
     def stop(self) -> str:
-        """Why the search ended: "confident", "exhausted" or "interrupted"."""
+        """Reason the search ended: "confident", "exhausted" or "interrupted"."""
     def __eq__(self, other: object, /) -> bool: ...
     @classmethod
     def __class_getitem__(cls, model: Any) -> Any: ...
     def could_be_chance(self) -> bool:
-        """Whether unrelated data might show as much support: the model is then not significant."""
+        """Whether unrelated data might have this much support: the model is then not significant."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
@@ -129,11 +129,11 @@ class LeastMedian(Generic[_Model]):
     model
         Model, fitted to its inliers.
     median_px
-        Median error of the best model of a sample, in the unit of the errors.
+        Median error of the best model from a sample, in the unit of the errors.
     sigma_px
-        Standard deviation of the noise that follows from the median, in the same unit.
+        Standard deviation of the noise, derived from the median, in the same unit.
     num_inliers
-        Number of data within 2.5 standard deviations of the model.
+        Number of data points within 2.5 standard deviations of the model.
     """
     def __new__(
         cls,
@@ -147,13 +147,13 @@ class LeastMedian(Generic[_Model]):
         """Model, fitted to its inliers."""
     @property
     def median_px(self) -> float:
-        """Median error of the best model of a sample, in the unit of the errors."""
+        """Median error of the best model from a sample, in the unit of the errors."""
     @property
     def sigma_px(self) -> float:
-        """Standard deviation of the noise that follows from the median, in the same unit."""
+        """Standard deviation of the noise, derived from the median, in the same unit."""
     @property
     def num_inliers(self) -> int:
-        """Number of data within 2.5 standard deviations of the model."""
+        """Number of data points within 2.5 standard deviations of the model."""
     def __eq__(self, other: object, /) -> bool: ...
     @classmethod
     def __class_getitem__(cls, model: Any) -> Any: ...
@@ -161,37 +161,37 @@ class LeastMedian(Generic[_Model]):
 
 @final
 class Ransac:
-    """RANSAC, one sample at a time: to show it, or to end it by a rule of your own.
+    """RANSAC, one sample at a time: to visualize it, or to stop it by a custom rule.
 
-    The constructor takes a model of your own; `line`, `similarity`, `fundamental` and
-    `homography` start runs for models of the library.
+    The constructor takes a custom model; `line`, `similarity`, `fundamental` and `homography` start
+    runs for models of the library.
 
     Parameters
     ----------
     num_data : int
-        Number of data.
+        Number of data points.
     sample_size : int
-        Number of data in a minimal sample.
+        Number of data points in a minimal sample.
     fit : callable
         ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
     errors : callable
-        ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+        ``errors(model)`` returns the errors of all data points, shape (num_data,), in the unit of
         ``max_error_px``.
     refine : callable, optional
         ``refine(model, indices)`` returns a better model from the inliers, or None.
     **options : RansacOptions
-        Those of `ransac`.
+        See `ransac`.
 
     Raises
     ------
     epipole.TooFewError
-        Fewer data than a sample has.
+        If there are fewer data than a sample needs.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 
     Notes
     -----
-    An exception in a callable is raised by the step; the next step continues.
+    A step raises the exceptions of its callables; the next step continues the run.
 
     Examples
     --------
@@ -229,20 +229,20 @@ class Ransac:
         """Number of samples drawn so far."""
     @property
     def required_iterations(self) -> int | None:
-        """Number of samples required by the best model so far; None before there is one."""
+        """Number of samples required by the best model so far; None before the first model."""
     @property
     def expected_iterations(self) -> int:
-        """Number of samples after which the run ends if no better model is found."""
+        """Number of samples after which the run ends unless a better model is found."""
     @staticmethod
     def line(points: ArrayLike, **options: Unpack[option_types.RansacOptions]) -> Ransac:
-        """Start for a line through points; see `estimate_line`.
+        """Starts a run for a line through points; see `estimate_line`.
 
         Parameters
         ----------
         points : array_like, shape (N, 2)
             Pixels.
         **options : RansacOptions
-            Those of `ransac`.
+            See `ransac`.
 
         Returns
         -------
@@ -252,11 +252,11 @@ class Ransac:
         Raises
         ------
         epipole.TooFewError
-            Fewer than 2 points.
+            If there are fewer than 2 points.
         epipole.DegenerateError
-            Equal points.
+            If the points are equal.
         ValueError
-            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+            If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
         """
     @staticmethod
     def similarity(
@@ -264,14 +264,14 @@ class Ransac:
         pixels2: ArrayLike,
         **options: Unpack[option_types.RansacOptions],
     ) -> Ransac:
-        """Start for a similarity of the plane; see `estimate_similarity`.
+        """Starts a run for a similarity of the plane; see `estimate_similarity`.
 
         Parameters
         ----------
         pixels1, pixels2 : array_like, shape (N, 2)
             Matches.
         **options : RansacOptions
-            Those of `ransac`.
+            See `ransac`.
 
         Returns
         -------
@@ -281,9 +281,9 @@ class Ransac:
         Raises
         ------
         epipole.TooFewError
-            Fewer than 2 different matches.
+            If there are fewer than 2 different matches.
         ValueError
-            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+            If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
         """
     @staticmethod
     def fundamental(
@@ -291,14 +291,14 @@ class Ransac:
         pixels2: ArrayLike,
         **options: Unpack[option_types.RansacOptions],
     ) -> Ransac:
-        """Start for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
+        """Starts a run for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
 
         Parameters
         ----------
         pixels1, pixels2 : array_like, shape (N, 2)
             Matches.
         **options : RansacOptions
-            Those of `ransac`.
+            See `ransac`.
 
         Returns
         -------
@@ -308,11 +308,11 @@ class Ransac:
         Raises
         ------
         epipole.TooFewError
-            Fewer than 7 different matches.
+            If there are fewer than 7 different matches.
         epipole.DegenerateError
-            All pixels of an image on one line.
+            If all pixels of an image are on a line.
         ValueError
-            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+            If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
         """
     @staticmethod
     def homography(
@@ -320,14 +320,14 @@ class Ransac:
         pixels2: ArrayLike,
         **options: Unpack[option_types.RansacOptions],
     ) -> Ransac:
-        """Start for a homography; see `epipole.homography.estimate_homography`.
+        """Starts a run for a homography; see `epipole.homography.estimate_homography`.
 
         Parameters
         ----------
         pixels1, pixels2 : array_like, shape (N, 2)
             Matches.
         **options : RansacOptions
-            Those of `ransac`.
+            See `ransac`.
 
         Returns
         -------
@@ -337,26 +337,26 @@ class Ransac:
         Raises
         ------
         epipole.TooFewError
-            Fewer than 4 different matches.
+            If there are fewer than 4 different matches.
         epipole.DegenerateError
-            All pixels of an image on one line.
+            If all pixels of an image are on a line.
         ValueError
-            ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+            If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
         """
     def start_from(self, model: object) -> None:
-        """Improves a model that is known, such as that of the frame before, and starts from it.
+        """Improves a known model, such as that of the previous frame, and starts from it.
 
         Parameters
         ----------
         model : object
-            Of the kind that the run estimates.
+            Model of the kind that the run estimates.
 
         Raises
         ------
         epipole.DegenerateError
-            Line (0, 0, c), in a run of `line`.
+            If the line of a run of `line` is (0, 0, c).
         RuntimeError
-            Run that is finished, or one that another thread uses.
+            If the run is finished, or another thread uses it.
         """
     def step(self) -> Trial | None:
         """Draws a sample and returns a `Trial`; None once enough samples were drawn.
@@ -364,24 +364,24 @@ class Ransac:
         Raises
         ------
         RuntimeError
-            Run that is finished, or one that another thread uses.
+            If the run is finished, or another thread uses it.
         """
     def __iter__(self, /) -> Ransac: ...
     def __next__(self, /) -> Trial: ...
     def finish(self) -> RansacReport[Any]:
-        """Improves the best model one last time. Ends the run.
+        """Improves the best model once more and ends the run.
 
         Returns
         -------
         RansacReport of Any
-            Its ``stop`` is "interrupted" if more samples were required.
+            ``stop`` is "interrupted" if more samples were required.
 
         Raises
         ------
         epipole.NoConsensusError
-            No model with as many inliers as a sample has.
+            If every model has fewer inliers than a sample has data.
         RuntimeError
-            Run that is finished, or one that another thread uses.
+            If the run is finished, or another thread uses it.
         """
 
 @final
@@ -395,17 +395,17 @@ class Trial:
     sample
         Indices of the data drawn, int64 array of shape (sample_size,).
     num_models
-        Number of models of the sample.
+        Number of models from the sample.
     model
-        Best of them, or None.
+        Best of these models, or None.
     score
-        Its score. An upper bound if it could not win, unless ``score_every_trial`` is set.
+        Score of `model`; an upper bound if it cannot win and ``score_every_trial`` is not set.
     num_inliers
-        Number of its inliers. A lower bound in the same case.
+        Number of inliers of `model`; a lower bound in the same case.
     required_iterations
-        Number of samples required by the best model so far; None before there is one.
+        Number of samples required by the best model so far; None before the first model.
     is_best
-        Whether the best model so far came out of this step.
+        Whether this step found the best model so far.
     refined
         Best model after local optimization, or None if it was not improved.
     """
@@ -429,22 +429,22 @@ class Trial:
         """Indices of the data drawn, int64 array of shape (sample_size,)."""
     @property
     def num_models(self) -> int:
-        """Number of models of the sample."""
+        """Number of models from the sample."""
     @property
     def model(self) -> Any:
-        """Best of them, or None."""
+        """Best of these models, or None."""
     @property
     def score(self) -> float:
-        """Its score. An upper bound if it could not win, unless ``score_every_trial`` is set."""
+        """Score of `model`; an upper bound if it cannot win and ``score_every_trial`` is not set."""
     @property
     def num_inliers(self) -> int:
-        """Number of its inliers. A lower bound in the same case."""
+        """Number of inliers of `model`; a lower bound in the same case."""
     @property
     def required_iterations(self) -> int | None:
-        """Number of samples required by the best model so far; None before there is one."""
+        """Number of samples required by the best model so far; None before the first model."""
     @property
     def is_best(self) -> bool:
-        """Whether the best model so far came out of this step."""
+        """Whether this step found the best model so far."""
     @property
     def refined(self) -> Any:
         """Best model after local optimization, or None if it was not improved."""
@@ -453,14 +453,14 @@ class Trial:
 
 @final
 class PlaneSimilarity:
-    """Turn, scale and shift of the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
+    """Rotation, scale and shift in the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
 
     Parameters
     ----------
     a
-        Scale times the cosine of the turn.
+        Scale times the cosine of the rotation angle.
     b
-        Scale times the sine of the turn.
+        Scale times the sine of the rotation angle.
     tu
         Shift along u, pixels.
     tv
@@ -469,10 +469,10 @@ class PlaneSimilarity:
     def __new__(cls, a: float, b: float, tu: float, tv: float) -> PlaneSimilarity: ...
     @property
     def a(self) -> float:
-        """Scale times the cosine of the turn."""
+        """Scale times the cosine of the rotation angle."""
     @property
     def b(self) -> float:
-        """Scale times the sine of the turn."""
+        """Scale times the sine of the rotation angle."""
     @property
     def tu(self) -> float:
         """Shift along u, pixels."""
@@ -481,7 +481,7 @@ class PlaneSimilarity:
         """Shift along v, pixels."""
     def __eq__(self, other: object, /) -> bool: ...
     def apply(self, p: ArrayLike) -> NDArray[np.float64]:
-        """Images of points.
+        """Maps points.
 
         Parameters
         ----------
@@ -492,11 +492,11 @@ class PlaneSimilarity:
         ndarray of the same shape
         """
     def scale(self) -> float:
-        """Scale."""
+        """Returns the scale."""
     def angle_rad(self) -> float:
-        """Angle of the turn from u towards v, radians."""
+        """Returns the rotation angle from u towards v, radians."""
     def matrix(self) -> NDArray[np.float64]:
-        """Homogeneous matrix, shape (3, 3)."""
+        """Returns the homogeneous matrix, shape (3, 3)."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 def num_trials_with_replacement(
@@ -504,7 +504,7 @@ def num_trials_with_replacement(
     sample_size: int,
     confidence: float,
 ) -> int:
-    """Number of samples that suffices, if data are drawn with replacement (``w**s``).
+    """Returns the required number of samples if data are drawn with replacement (``w**s``).
 
     Parameters
     ----------
@@ -521,7 +521,8 @@ def num_trials_with_replacement(
     Raises
     ------
     ValueError
-        ``inlier_ratio`` outside [0, 1], ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+        If ``inlier_ratio`` is outside [0, 1], ``sample_size`` is 0, or ``confidence`` is outside
+        (0, 1).
 
     Examples
     --------
@@ -534,7 +535,7 @@ def num_trials_without_replacement(
     sample_size: int,
     confidence: float,
 ) -> int:
-    """Number of samples that suffices, if data are drawn without replacement.
+    """Returns the required number of samples if data are drawn without replacement.
 
     Parameters
     ----------
@@ -549,9 +550,10 @@ def num_trials_without_replacement(
     Raises
     ------
     epipole.TooFewError
-        Fewer data than a sample has.
+        If there are fewer data than a sample needs.
     ValueError
-        ``num_inliers`` above ``num_data``, ``sample_size`` of 0, or ``confidence`` outside (0, 1).
+        If ``num_inliers`` is above ``num_data``, ``sample_size`` is 0, or ``confidence`` is outside
+        (0, 1).
     """
 def log10_false_alarms(
     num_inliers: int,
@@ -560,20 +562,20 @@ def log10_false_alarms(
     max_models: int,
     chance: float,
 ) -> float:
-    """Expected number of models with this support in data without structure, as log10.
+    """Returns the expected number of models with this support by chance, as log10.
 
     Parameters
     ----------
     num_inliers, num_data, sample_size, max_models : int
     chance : float
-        Probability that an unrelated datum is an inlier.
+        Probability that an unrelated data point fits a model.
 
     Returns
     -------
     float
     """
 def fit_line_total_least_squares(points: ArrayLike) -> NDArray[np.float64]:
-    """Line with the least sum of squared distances.
+    """Fits the line with the smallest sum of squared distances.
 
     Parameters
     ----------
@@ -588,12 +590,12 @@ def fit_line_total_least_squares(points: ArrayLike) -> NDArray[np.float64]:
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 points.
+        If there are fewer than 2 points.
     epipole.DegenerateError
-        Equal points, or points that spread equally in all directions.
+        If the points are equal, or spread equally in all directions.
     """
 def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
-    """Line with the least sum of Huber losses of the distances.
+    """Fits the line with the smallest sum of Huber losses of the distances.
 
     Parameters
     ----------
@@ -610,11 +612,11 @@ def fit_line_huber(points: ArrayLike, width_px: float) -> NDArray[np.float64]:
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 points.
+        If there are fewer than 2 points.
     epipole.DegenerateError
-        Equal points, or points that spread equally in all directions.
+        If the points are equal, or spread equally in all directions.
     ValueError
-        ``width_px`` not above 0.
+        If ``width_px`` is not above 0.
     """
 def estimate_line(
     points: ArrayLike,
@@ -622,16 +624,16 @@ def estimate_line(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Line of points with outliers, by RANSAC.
+    """Estimates a line from points with outliers, by RANSAC.
 
     Parameters
     ----------
     points : array_like, shape (N, 2)
         Pixels.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -641,13 +643,13 @@ def estimate_line(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 points.
+        If there are fewer than 2 points.
     epipole.DegenerateError
-        Equal points.
+        If the points are equal.
     epipole.NoConsensusError
-        No line with 2 inliers.
+        If no line has 2 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 
     Examples
     --------
@@ -656,7 +658,7 @@ def estimate_line(
     4
     """
 def fit_similarity(pixels1: ArrayLike, pixels2: ArrayLike) -> PlaneSimilarity:
-    """Similarity of matches by least squares, without outliers.
+    """Fits a similarity to matches by least squares, without outliers.
 
     Parameters
     ----------
@@ -670,11 +672,11 @@ def fit_similarity(pixels1: ArrayLike, pixels2: ArrayLike) -> PlaneSimilarity:
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 matches.
+        If there are fewer than 2 matches.
     epipole.DegenerateError
-        All points of image 1 equal.
+        If all points of image 1 are equal.
     ValueError
-        Coordinate beyond 1e9 pixels.
+        If a coordinate is beyond 1e9 pixels.
 
     Examples
     --------
@@ -688,16 +690,16 @@ def estimate_similarity(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[PlaneSimilarity]:
-    """Similarity of matches with outliers, by RANSAC.
+    """Estimates a similarity from matches with outliers, by RANSAC.
 
     Parameters
     ----------
     pixels1, pixels2 : array_like, shape (N, 2)
         Matches.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -707,11 +709,11 @@ def estimate_similarity(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 different matches.
+        If there are fewer than 2 different matches.
     epipole.NoConsensusError
-        No similarity with 2 inliers.
+        If no similarity has 2 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def least_median(
     num_data: int,
@@ -723,22 +725,22 @@ def least_median(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.LeastMedianOptions],
 ) -> LeastMedian[Any]:
-    """Model of your own with the least median of squared errors; needs no threshold.
+    """Estimates a custom model by least median of squares, without a threshold.
 
     Parameters
     ----------
     num_data : int
-        Number of data, less than half of them outliers.
+        Number of data points, fewer than half of them outliers.
     sample_size : int
-        Number of data in a minimal sample.
+        Number of data points in a minimal sample.
     fit : callable
         ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
     errors : callable
-        ``errors(model)`` returns the errors of all data, shape (num_data,).
+        ``errors(model)`` returns the errors of all data points, shape (num_data,).
     refine : callable, optional
         ``refine(model, indices)`` returns a better model from the inliers, or None.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : LeastMedianOptions
         ``num_samples=500``, ``seed=0``.
 
@@ -749,15 +751,15 @@ def least_median(
     Raises
     ------
     epipole.TooFewError
-        No more data than a sample has.
+        If ``num_data`` does not exceed ``sample_size``.
     epipole.DegenerateError
-        No sample that gives a model.
+        If no sample gives a model.
     ValueError
-        ``num_samples`` of 0.
+        If ``num_samples`` is 0.
 
     Notes
     -----
-    An exception in a callable ends the run and is raised.
+    An exception in a callable ends the run and propagates.
 
     Examples
     --------
@@ -777,25 +779,25 @@ def ransac(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[Any]:
-    """Model of your own by RANSAC.
+    """Estimates a custom model by RANSAC.
 
     Parameters
     ----------
     num_data : int
-        Number of data.
+        Number of data points.
     sample_size : int
-        Number of data in a minimal sample.
+        Number of data points in a minimal sample.
     fit : callable
         ``fit(indices)`` returns the model of a minimal sample, a list of models, or None.
     errors : callable
-        ``errors(model)`` returns the errors of all data, shape (num_data,), in the unit of
+        ``errors(model)`` returns the errors of all data points, shape (num_data,), in the unit of
         ``max_error_px``.
     refine : callable, optional
         ``refine(model, indices)`` returns a better model from the inliers, or None.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -804,13 +806,13 @@ def ransac(
     Raises
     ------
     epipole.TooFewError
-        Fewer data than a sample has.
+        If there are fewer data than a sample needs.
     epipole.NoConsensusError
-        No model with as many inliers as a sample has.
+        If every model has fewer inliers than a sample has data.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
 
     Notes
     -----
-    An exception in a callable ends the run and is raised. `Ransac` runs step by step.
+    An exception in a callable ends the run and propagates. See `Ransac` for step-by-step runs.
     """

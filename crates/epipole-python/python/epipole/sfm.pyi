@@ -72,14 +72,14 @@ class Similarity3:
     Parameters
     ----------
     isometry : RigidTransform, optional
-        Rotation and translation. The identity if not given.
+        Rotation and translation. The identity by default.
     scale : float, optional
         Greater than 0.
 
     Raises
     ------
     ValueError
-        ``scale`` not above 0.
+        If ``scale`` is not above 0.
     """
     def __new__(cls, isometry: RigidTransform | None = None, scale: float = 1.0) -> Similarity3: ...
     @property
@@ -96,12 +96,12 @@ class Similarity3:
         """t, shape (3,)."""
     def __eq__(self, other: object, /) -> bool: ...
     def matrix(self) -> NDArray[np.float64]:
-        """Homogeneous matrix, shape (4, 4)."""
+        """Returns the homogeneous matrix, shape (4, 4)."""
     def inverse(self) -> Similarity3:
-        """The inverse transform: ``b_from_a``."""
+        """Returns the inverse transform: ``b_from_a``."""
     @overload
     def __matmul__(self, other: Similarity3, /) -> Similarity3:
-        """Composition with a similarity, or the image of points.
+        """Composes two similarities, or transforms points.
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Similarity3:
         """
     @overload
     def __matmul__(self, other: ArrayLike, /) -> NDArray[np.float64]:
-        """Composition with a similarity, or the image of points.
+        """Composes two similarities, or transforms points.
 
         Parameters
         ----------
@@ -136,9 +136,9 @@ class ErrorStatistics:
     mean
         Mean.
     median
-        Median, the lower one of an even number.
+        Median; the lower of the middle two for an even number.
     max
-        Largest.
+        Maximum.
     """
     def __new__(cls, rmse: float, mean: float, median: float, max: float) -> ErrorStatistics: ...
     @property
@@ -149,16 +149,16 @@ class ErrorStatistics:
         """Mean."""
     @property
     def median(self) -> float:
-        """Median, the lower one of an even number."""
+        """Median; the lower of the middle two for an even number."""
     @property
     def max(self) -> float:
-        """Largest."""
+        """Maximum."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class RelativePoseError:
-    """Errors of the motion between frames.
+    """Errors of the motions between frames.
 
     Parameters
     ----------
@@ -183,16 +183,16 @@ class RelativePoseError:
 
 @final
 class Sensor:
-    """Further camera rigidly mounted on each camera of a bundle, such as the right one of a rig.
+    """Additional camera rigidly mounted on each camera of a bundle, such as the right one of a rig.
 
     Parameters
     ----------
     sensor_from_camera : RigidTransform
-        From the frame of the camera to that of the sensor; it is not refined.
+        Transform from the camera frame to the sensor frame; not refined.
     camera : Camera
         Image size, intrinsics and lens of the sensor.
     lens : int
-        Number of its lens, as in `Bundle.lens_of_camera`.
+        Lens number, as in `Bundle.lens_of_camera`.
     """
     def __new__(
         cls,
@@ -202,13 +202,13 @@ class Sensor:
     ) -> Sensor: ...
     @property
     def sensor_from_camera(self) -> RigidTransform:
-        """From the frame of the camera to that of the sensor."""
+        """Transform from the camera frame to the sensor frame."""
     @property
     def camera(self) -> Camera:
         """Image size, intrinsics and lens."""
     @property
     def lens(self) -> int:
-        """Number of its lens."""
+        """Lens number."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -226,12 +226,12 @@ class Bundle:
     pixels : array_like, shape (M, 2)
         Pixel of each observation.
     lens_of_camera : array_like of int, optional
-        Number of the lens of each camera; 0 if missing. Cameras of one lens have equal lenses and
-        share what is refined of them.
+        Lens number of each camera; 0 by default. Cameras with the same number have equal lenses and
+        share their refined parameters.
     sensors : list of Sensor, optional
-        Further cameras mounted on each camera.
+        Additional cameras mounted on each camera.
     sensor_of_observation : array_like of int, optional
-        0 if the camera itself made the observation, k if sensor k - 1 did; 0 if missing.
+        For each observation, 0 if the camera itself made it, k if sensor k - 1 did; 0 by default.
     """
     def __new__(
         cls,
@@ -257,16 +257,16 @@ class Bundle:
         """Pixel of each observation, shape (M, 2)."""
     @property
     def lens_of_camera(self) -> NDArray[np.int64]:
-        """Number of the lens of each camera, int64 array."""
+        """Lens number of each camera, int64 array."""
     @property
     def sensors(self) -> list[Sensor]:
-        """Further cameras mounted on each camera, a list of `Sensor`."""
+        """Additional cameras mounted on each camera, a list of `Sensor`."""
     @property
     def sensor_of_observation(self) -> NDArray[np.int64]:
         """Sensor of each observation, int64 array; 0 for the camera itself."""
     def __eq__(self, other: object, /) -> bool: ...
     def residual_px(self, observation: int) -> NDArray[np.float64]:
-        """Reprojection error of an observation, predicted minus observed pixel, shape (2,).
+        """Returns the reprojection error of an observation, predicted minus observed, shape (2,).
 
         Parameters
         ----------
@@ -276,7 +276,7 @@ class Bundle:
         Raises
         ------
         IndexError
-            Observation that does not exist, or whose camera or point does not.
+            If the observation does not exist, or its camera or point does not.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -288,7 +288,7 @@ class BalProblem:
     ----------
     cameras : array_like, shape (C, 9)
         Rotation as axis times angle (radians), translation, focal length (pixels), k1, k2. The
-        camera looks along -z; pixels have the origin in the middle of the image and v up.
+        camera looks along -z; pixels have their origin at the image center, with v up.
     points : array_like, shape (P, 3)
     observations : array_like of int, shape (M, 2)
         Index of the camera and of the point.
@@ -315,7 +315,7 @@ class BalProblem:
         """Pixel of each observation, shape (M, 2), v up."""
     def __eq__(self, other: object, /) -> bool: ...
     def cost(self, loss: str | Mapping[str, Any] | None = None) -> float:
-        """Half the sum of the losses, square pixels.
+        """Computes half the sum of the losses, square pixels.
 
         Parameters
         ----------
@@ -325,22 +325,22 @@ class BalProblem:
         Raises
         ------
         ValueError
-            Loss width not above 0.
+            If the loss width is not above 0.
         IndexError
-            Observation of a camera or point that does not exist.
+            If an observation refers to a missing camera or point.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PositionPrior:
-    """Camera position measured otherwise, such as by GPS.
+    """Prior of a camera position, such as from GPS.
 
     Parameters
     ----------
     center_in_world : array_like, shape (3,)
         Center of the camera.
     sigma : array_like, shape (3,)
-        Standard deviation along each axis of the world, in its unit, > 0.
+        Standard deviation along each world axis, in world units, > 0.
     """
     def __new__(cls, center_in_world: ArrayLike, sigma: ArrayLike) -> PositionPrior: ...
     @property
@@ -359,14 +359,14 @@ class SfmImage:
     Parameters
     ----------
     name : str
-        Name, such as that of its file.
+        Name, such as the file name.
     keypoints : array_like, shape (N, 2)
         Pixels.
     colors : array_like of uint8, shape (N, 3), optional
         Red, green, blue.
     lens : int, optional
-        Number of its lens. Images with the same number have equal lenses and share what is refined
-        of them.
+        Lens number. Images with the same number have equal lenses and share their refined
+        parameters.
     position : PositionPrior, optional
         Position of the camera, if known.
     """
@@ -389,7 +389,7 @@ class SfmImage:
         """Colors of the keypoints, uint8 of shape (N, 3), or None."""
     @property
     def lens(self) -> int:
-        """Number of its lens."""
+        """Lens number."""
     @property
     def position(self) -> PositionPrior | None:
         """Position of the camera, or None."""
@@ -436,7 +436,7 @@ class SfmInput:
     cameras : list of Camera
         Camera of each image, or one for all.
     pairs : list of PairMatches
-        Matches between images, wrong ones among them.
+        Matches between images, including outliers.
     """
     def __new__(
         cls,
@@ -467,7 +467,7 @@ class Photo:
     image : array_like of uint8, shape (H, W, 3)
         Red, green, blue.
     lens : int, optional
-        Number of its lens, as in `SfmImage`.
+        Lens number, as in `SfmImage`.
     position : PositionPrior, optional
         Position of the camera, if known.
     """
@@ -486,7 +486,7 @@ class Photo:
         """Pixels, uint8 of shape (H, W, 3)."""
     @property
     def lens(self) -> int:
-        """Number of its lens."""
+        """Lens number."""
     @property
     def position(self) -> PositionPrior | None:
         """Position of the camera, or None."""
@@ -495,14 +495,14 @@ class Photo:
 
 @final
 class PhotoFeatures:
-    """Features of a photo; its pixels are no longer needed.
+    """Features of a photo, without its pixels.
 
     Parameters
     ----------
     image : SfmImage
         Size, keypoints and their colors.
     descriptors : array_like, shape (N, D) or uint8 of shape (N, 32)
-        Numbers, or 256 bits.
+        Floating-point numbers, or 256 bits.
     keypoints : epipole.feature.Keypoints
         Keypoints with scales and directions.
     """
@@ -517,7 +517,7 @@ class PhotoFeatures:
         """Keypoints and their colors, `SfmImage`."""
     @property
     def descriptors(self) -> NDArray[Any]:
-        """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for bits."""
+        """Descriptors, float32 of shape (N, D), or uint8 of shape (N, 32) for binary ones."""
     @property
     def keypoints(self) -> Keypoints:
         """Keypoints with scales and directions."""
@@ -527,29 +527,29 @@ class PhotoFeatures:
 
 @final
 class Reconstruction:
-    """Cameras and points that share one frame.
+    """Cameras and points in one frame.
 
-    Its scale and pose are arbitrary, unless positions of images are known: see `is_placed`.
+    Scale and pose of the frame are arbitrary unless image positions are known: see `is_placed`.
 
     Parameters
     ----------
     cameras : list of PosedCamera or None
-        Camera of each image, None if it could not be registered.
+        Camera of each image; None if it could not be registered.
     points : array_like, shape (P, 3)
         Points in the world.
     tracks : array_like of int, shape (K, 3)
-        Observations: index of the point, of the image, and of its keypoint.
+        Observations: indices of the point, of the image, and of the image's keypoint.
     colors : array_like of uint8, shape (P, 3), optional
-        Red, green, blue. Gray if not given.
+        Red, green, blue. Gray by default.
     errors_px : array_like, shape (P,), optional
-        Root mean square of the reprojection errors of each point, pixels. 0 if not given.
+        Root mean square of the reprojection errors of each point, pixels. 0 by default.
     is_placed : bool, optional
-        Whether it stands where the known positions of its images are, in their unit of length.
+        Whether the frame agrees with the known image positions, in their unit of length.
 
     Raises
     ------
     ValueError
-        Track of a point that does not exist.
+        If a track refers to a missing point.
     """
     def __new__(
         cls,
@@ -562,13 +562,13 @@ class Reconstruction:
     ) -> Reconstruction: ...
     @property
     def cameras(self) -> list[PosedCamera | None]:
-        """Camera of each image, a list of `PosedCamera`, None if it could not be registered."""
+        """Camera of each image, a list of `PosedCamera`; None if it could not be registered."""
     @property
     def points(self) -> NDArray[np.float64]:
         """Points in the world, shape (P, 3)."""
     @property
     def tracks(self) -> NDArray[np.int64]:
-        """Observations: index of the point, of the image, and of its keypoint, int64 of shape (K, 3)."""
+        """Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint."""
     @property
     def colors(self) -> NDArray[np.uint8]:
         """Mean color of the keypoints of each point, uint8 of shape (P, 3)."""
@@ -577,21 +577,21 @@ class Reconstruction:
         """Root mean square of the reprojection errors of each point, pixels, shape (P,)."""
     @property
     def is_placed(self) -> bool:
-        """Whether it stands where the known positions of its images are, in their unit of length."""
+        """Whether the frame agrees with the known image positions, in their unit of length."""
     def __eq__(self, other: object, /) -> bool: ...
     def num_registered(self) -> int:
-        """Number of images with a camera."""
+        """Returns the number of images with a camera."""
     def num_observations(self) -> int:
-        """Number of observations of all points."""
+        """Returns the number of observations of all points."""
     def moved(self, to_from_world: Similarity3) -> Reconstruction:
-        """The same in another world, moved by ``to_from_world``.
+        """Returns the reconstruction in another world, transformed by ``to_from_world``.
 
         Parameters
         ----------
         to_from_world : Similarity3
         """
     def project(self, image: int, point: ArrayLike) -> NDArray[np.float64] | None:
-        """Pixel of a point in an image.
+        """Projects a point into an image.
 
         Parameters
         ----------
@@ -602,10 +602,10 @@ class Reconstruction:
         Returns
         -------
         ndarray or None, shape (2,)
-            None if the camera does not see it.
+            None if the camera does not see the point.
         """
     def mean_reprojection_px(self, images: Sequence[SfmImage]) -> float:
-        """Mean length of all reprojection errors, pixels.
+        """Computes the mean length of all reprojection errors, pixels.
 
         Parameters
         ----------
@@ -615,10 +615,10 @@ class Reconstruction:
         Raises
         ------
         IndexError
-            Track of a keypoint that ``images`` do not have.
+            If a track refers to a keypoint that is missing in ``images``.
         """
     def to_bundle(self, images: Sequence[SfmImage]) -> tuple[Bundle, NDArray[np.int64]]:
-        """The same for bundle adjustment.
+        """Converts the reconstruction for bundle adjustment.
 
         Parameters
         ----------
@@ -633,7 +633,7 @@ class Reconstruction:
         Raises
         ------
         IndexError
-            Track of a keypoint that ``images`` do not have.
+            If a track refers to a keypoint that is missing in ``images``.
         """
     def localize(
         self,
@@ -644,17 +644,17 @@ class Reconstruction:
         progress: Callable[[str, float], object] | None = None,
         **options: Unpack[option_types.LocalizeOptions],
     ) -> Localization:
-        """Pose of another photo.
+        """Estimates the pose of another photo.
 
         Parameters
         ----------
         features : list of PhotoFeatures
-            Those of the images of the reconstruction.
+            Features of the images of the reconstruction.
         photo : PhotoFeatures
         camera : Camera
             Camera of the photo.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
         **options : LocalizeOptions
             ``matching`` and ``ransac``, dicts; ``min_num_inliers``.
 
@@ -665,13 +665,13 @@ class Reconstruction:
         Raises
         ------
         epipole.TooFewError
-            Fewer than ``min_num_inliers`` points that match or agree with a pose.
+            If fewer than ``min_num_inliers`` points match or agree with a pose.
         epipole.DegenerateError
-            Numbers in one list of descriptors and bits in another.
+            If some lists of descriptors are float and others binary.
         epipole.NoConsensusError
-            No pose with 3 inliers.
+            If no pose has 3 inliers.
         ValueError
-            Track of a keypoint that does not exist, or an option out of range.
+            If a track refers to a missing keypoint, or an option is out of range.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -682,9 +682,9 @@ class Localization:
     Parameters
     ----------
     cam_from_world
-        Pose of its camera.
+        Pose of the camera.
     inliers
-        Points that agree with the pose: index of the point and of the photo's keypoint, int64
+        Points that agree with the pose: indices of the point and of the photo's keypoint, int64
         of shape (M, 2).
     num_matches
         Number of matches between keypoints of the photo and points.
@@ -697,10 +697,10 @@ class Localization:
     ) -> Localization: ...
     @property
     def cam_from_world(self) -> RigidTransform:
-        """Pose of its camera."""
+        """Pose of the camera."""
     @property
     def inliers(self) -> NDArray[np.int64]:
-        """Points that agree with the pose: index of the point and of the photo's keypoint, int64
+        """Points that agree with the pose: indices of the point and of the photo's keypoint, int64
         of shape (M, 2).
         """
     @property
@@ -717,18 +717,18 @@ class SfmStep:
     ----------
     kind : {"started", "registered", "adjusted"}
     images : list of int
-        Two images that started a component, the registered one, or none.
+        The two images that started a component, the registered one, or none.
     num_registered : int, optional
-        Number of registered images of the component.
+        Number of registered images in the component.
     num_points : int, optional
-        Number of points of the component.
+        Number of points in the component.
     cost : float, optional
-        Cost of the refinement, square pixels.
+        Cost after the refinement, square pixels.
 
     Raises
     ------
     ValueError
-        Unknown ``kind``, or arguments that do not fit it.
+        If ``kind`` is unknown, or the arguments do not fit it.
     """
     def __new__(
         cls,
@@ -743,13 +743,13 @@ class SfmStep:
         """"started", "registered" or "adjusted"."""
     @property
     def images(self) -> list[int]:
-        """Two images that started a component, the registered one, or none."""
+        """The two images that started a component, the registered one, or none."""
     @property
     def num_registered(self) -> int | None:
-        """Number of registered images of the component."""
+        """Number of registered images in the component."""
     @property
     def num_points(self) -> int | None:
-        """Number of points of the component."""
+        """Number of points in the component."""
     @property
     def cost(self) -> float | None:
         """Half the sum of the losses after the refinement, square pixels; None if it failed."""
@@ -779,7 +779,7 @@ class SfmResult:
         """Reconstructions that could not be connected, largest first, each in its own frame."""
     @property
     def unregistered(self) -> list[int]:
-        """Images that are in none."""
+        """Images in no component."""
     @property
     def steps(self) -> list[SfmStep]:
         """Steps taken, in order."""
@@ -791,24 +791,24 @@ class SfmResult:
 
 @final
 class IncrementalReconstruction:
-    """`reconstruct`, step by step.
+    """Step-by-step `reconstruct`.
 
     Parameters
     ----------
     input : SfmInput
     progress : callable, optional
-        Called with the stage and the completed share while pairs are tested.
+        Called with the stage and the completed fraction while pairs are verified.
     **options : SfmOptions
-        Those of `reconstruct`.
+        See `reconstruct`.
 
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images.
+        If there are fewer than 2 images.
     epipole.DegenerateError
-        Images of one lens number whose cameras have different lenses.
+        If images with the same lens number have cameras with different lenses.
     ValueError
-        Option out of range, or a match of an image or keypoint that does not exist.
+        If an option is out of range, or a match refers to a missing image or keypoint.
     """
     def __new__(
         cls,
@@ -820,38 +820,38 @@ class IncrementalReconstruction:
     def step(self, *, progress: Callable[[str, float], object] | None = None) -> SfmStep | None:
         """Takes the next step and returns it; None after the last.
 
-        After an interruption the next call continues from there.
+        After an interruption, the next call resumes.
 
         Parameters
         ----------
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Raises
         ------
         RuntimeError
-            Work that is finished, or that another thread uses.
+            If the job is finished, or another thread uses it.
         """
     def current(self) -> Reconstruction | None:
-        """Component that grows now, a `Reconstruction`; None between two components.
+        """Returns the component that currently grows, a `Reconstruction`; None between components.
 
         Raises
         ------
         RuntimeError
-            Work that is finished, or that another thread uses.
+            If the job is finished, or another thread uses it.
         """
     def finish(self) -> SfmResult:
-        """All components, including the current one. Ends the work.
+        """Ends the job and returns all components, including the current one.
 
         Raises
         ------
         RuntimeError
-            Work that is finished, or that another thread uses.
+            If the job is finished, or another thread uses it.
         """
 
 @final
 class WhyUnregistered:
-    """Why an image is in no reconstruction.
+    """Reason an image is in no reconstruction.
 
     Parameters
     ----------
@@ -897,13 +897,13 @@ class OdometryResult:
         """``world_from_cam`` of each frame, None if it was lost. The first frame found is the origin."""
     @property
     def keyframes(self) -> list[int]:
-        """Frames that gave points."""
+        """Frames that provide points."""
     @property
     def lost(self) -> list[int]:
-        """Frames that could not be placed."""
+        """Frames that could not be registered."""
     @property
     def reconstruction(self) -> Reconstruction:
-        """Cameras and points; of a stereo rig the left cameras, then the right ones."""
+        """Cameras and points; for a stereo rig, the left cameras followed by the right ones."""
     @property
     def is_complete(self) -> bool:
         """Whether every frame was tried."""
@@ -912,7 +912,7 @@ class OdometryResult:
 
 @final
 class Odometry:
-    """`monocular_odometry` or `stereo_odometry`, step by step."""
+    """Step-by-step `monocular_odometry` or `stereo_odometry`."""
     @staticmethod
     def monocular(
         input: SfmInput,
@@ -920,25 +920,25 @@ class Odometry:
         progress: Callable[[str, float], object] | None = None,
         **options: Unpack[option_types.OdometryOptions],
     ) -> Odometry:
-        """Start with a single camera.
+        """Starts with a single camera; see `monocular_odometry`.
 
         Parameters
         ----------
         input : SfmInput
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
         **options : OdometryOptions
-            Those of `monocular_odometry`.
+            See `monocular_odometry`.
 
         Raises
         ------
         epipole.TooFewError
-            Fewer than 2 images.
+            If there are fewer than 2 images.
         epipole.DegenerateError
-            No two images with enough points under a sufficient angle, or images of one lens number
-            whose cameras have different lenses.
+            If no two images have enough points at a sufficient angle, or images with the same lens
+            number have cameras with different lenses.
         ValueError
-            Option out of range, or a match of an image or keypoint that does not exist.
+            If an option is out of range, or a match refers to a missing image or keypoint.
         """
     @staticmethod
     def stereo(
@@ -951,7 +951,7 @@ class Odometry:
         progress: Callable[[str, float], object] | None = None,
         **options: Unpack[option_types.OdometryOptions],
     ) -> Odometry:
-        """Start with a stereo rig; see `stereo_odometry`.
+        """Starts with a stereo rig; see `stereo_odometry`.
 
         Parameters
         ----------
@@ -961,50 +961,50 @@ class Odometry:
         right_from_left : RigidTransform
         right_camera : Camera
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
         **options : OdometryOptions
-            Those of `monocular_odometry`.
+            See `monocular_odometry`.
 
         Raises
         ------
         epipole.TooFewError
-            Fewer than 2 images.
+            If there are fewer than 2 images.
         epipole.DegenerateError
-            Rig without a baseline, too few matches in the first frame, or images of one lens number
-            whose cameras have different lenses.
+            If the rig has no baseline, the first frame has too few matches, or images with the same
+            lens number have cameras with different lenses.
         ValueError
-            Option out of range, or a match of an image or keypoint that does not exist.
+            If an option is out of range, or a match refers to a missing image or keypoint.
         """
     def step(self, *, progress: Callable[[str, float], object] | None = None) -> SfmStep | None:
         """Takes the next step and returns an `SfmStep`; None after the last.
 
-        After an interruption the next call continues from there.
+        After an interruption, the next call resumes.
 
         Parameters
         ----------
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Raises
         ------
         RuntimeError
-            Work that is finished, or that another thread uses.
+            If the job is finished, or another thread uses it.
         """
     def finish(self) -> OdometryResult:
-        """Path so far, an `OdometryResult`. Ends the work.
+        """Ends the job and returns the path so far, an `OdometryResult`.
 
         Raises
         ------
         RuntimeError
-            Work that is finished, or that another thread uses.
+            If the job is finished, or another thread uses it.
         """
 
 @final
 class PoseGraph:
-    """Poses, joined by measured relative poses.
+    """Poses joined by measured relative poses.
 
-    A pose is a row of an array: (x, y, angle) in the plane; (x, y, z, qw, qx, qy, qz) in space; the
-    same with a scale behind it for similarities.
+    A pose is a row of an array: (x, y, angle) in the plane, (x, y, z, qw, qx, qy, qz) in space, and
+    the same followed by a scale for similarities.
 
     Parameters
     ----------
@@ -1016,27 +1016,27 @@ class PoseGraph:
     measurements : array_like, shape (E, 3), (E, 7) or (E, 8)
         Pose of the end in the frame of the start.
     information : array_like, shape (E, D, D), optional
-        Inverse covariances of translation, rotation, log scale: D is 3, 6 or 7. Identities if not
-        given.
+        Inverse covariances of translation, rotation, log scale: D is 3, 6 or 7. Identities by
+        default.
     fixed : array_like of int, optional
-        Vertices that stay. In a connected part without one, its first vertex stays.
+        Vertices held fixed. In a connected part without one, the first vertex is held.
     ids : array_like of int, shape (V,), optional
         Number of each vertex in a file.
     landmarks : array_like of int, optional
-        Vertices that are points, which have no rotation: edges to them have an information of 0
-        for it.
+        Vertices that are points without rotation: edges to them have an information of 0 for the
+        rotation.
     prior_vertices : array_like of int, shape (P,), optional
-        Vertices whose poses are measured, such as by a GPS receiver.
+        Vertices whose poses are measured, for example by a GPS receiver.
     priors : array_like, shape (P, 3), (P, 7) or (P, 8), optional
-        ``world_from_vertex`` as measured.
+        Measured ``world_from_vertex``.
     prior_information : array_like, shape (P, D, D), optional
-        Inverse covariances of these. Identities if not given.
+        Inverse covariances of the priors. Identities by default.
 
     Raises
     ------
     ValueError
-        Unknown ``kind``, an index of no vertex, a quaternion whose length is not 1, or a scale not
-        above 0.
+        If ``kind`` is unknown, a vertex index is out of range, the length of a quaternion is not 1,
+        or a scale is not above 0.
     """
     def __new__(
         cls,
@@ -1072,35 +1072,35 @@ class PoseGraph:
         """Vertices whose poses are measured, int64 of shape (P,)."""
     @property
     def priors(self) -> NDArray[np.float64]:
-        """Measured ``world_from_vertex`` of these, shape (P, 3), (P, 7) or (P, 8)."""
+        """Measured ``world_from_vertex`` of these vertices, shape (P, 3), (P, 7) or (P, 8)."""
     @property
     def prior_information(self) -> NDArray[np.float64]:
         """Inverse covariances of these measurements, shape (P, D, D)."""
     @property
     def fixed(self) -> NDArray[np.int64]:
-        """Vertices that stay, int64 array."""
+        """Vertices held fixed, int64 array."""
     @property
     def landmarks(self) -> NDArray[np.int64]:
-        """Vertices that are points, whose rotation is none, int64 array."""
+        """Vertices that are points without rotation, int64 array."""
     @property
     def ids(self) -> NDArray[np.int64]:
         """Number of each vertex in a file, int64 of shape (V,)."""
     def __eq__(self, other: object, /) -> bool: ...
     def chi2(self) -> float:
-        """Sum of the squared errors, weighted by their information."""
+        """Returns the sum of the squared errors, weighted by their information."""
     def size(self) -> tuple[int, int]:
-        """Number of vertices and of edges."""
+        """Returns the numbers of vertices and edges."""
     def initialize(
         self,
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> PoseGraph:
-        """Graph with vertices computed from the measurements alone.
+        """Returns a graph with vertices computed from the measurements alone.
 
         Parameters
         ----------
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Returns
         -------
@@ -1109,11 +1109,11 @@ class PoseGraph:
         Raises
         ------
         epipole.TooFewError
-            No edges and no priors.
+            If there are no edges and no priors.
         epipole.DegenerateError
-            Vertex that hangs on measurements without weight.
+            If a vertex depends on measurements without weight.
         ValueError
-            Edge from a vertex to itself, or an information matrix that is asymmetric or has a
+            If an edge joins a vertex with itself, or an information matrix is asymmetric or has a
             negative eigenvalue.
         """
     def optimize(
@@ -1123,14 +1123,15 @@ class PoseGraph:
         progress: Callable[[str, float], object] | None = None,
         **options: Unpack[option_types.LmOptions],
     ) -> tuple[PoseGraph, PoseGraphReport]:
-        """Graph with the least sum of squared errors.
+        """Returns the graph with the smallest sum of squared errors.
 
         Parameters
         ----------
         loss : str or dict, optional
-            ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+            ``"trivial"`` or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"``
+            likewise.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
         **options : LmOptions
             ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
             ``initial_damping``, ``patience``.
@@ -1143,10 +1144,10 @@ class PoseGraph:
         Raises
         ------
         epipole.TooFewError
-            No edges and no priors.
+            If there are no edges and no priors.
         ValueError
-            Edge from a vertex to itself, an information matrix that is asymmetric or has a negative
-            eigenvalue, or a loss width not above 0.
+            If an edge joins a vertex with itself, an information matrix is asymmetric or has a
+            negative eigenvalue, or a loss width is not above 0.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -1157,13 +1158,13 @@ class PoseGraphReport:
     Parameters
     ----------
     initial_chi2
-        Sum of the weighted squared errors at the start.
+        Initial sum of the weighted squared errors.
     final_chi2
-        Sum of the weighted squared errors at the end.
+        Final sum of the weighted squared errors.
     iterations
-        Steps tried.
+        Number of steps tried.
     termination
-        Why the loop ended, as in `epipole.optim.LmReport`.
+        Reason the loop ended, as in `epipole.optim.LmReport`.
     num_components
         Number of connected parts.
     """
@@ -1177,16 +1178,16 @@ class PoseGraphReport:
     ) -> PoseGraphReport: ...
     @property
     def initial_chi2(self) -> float:
-        """Sum of the weighted squared errors at the start."""
+        """Initial sum of the weighted squared errors."""
     @property
     def final_chi2(self) -> float:
-        """Sum of the weighted squared errors at the end."""
+        """Final sum of the weighted squared errors."""
     @property
     def iterations(self) -> int:
-        """Steps tried."""
+        """Number of steps tried."""
     @property
     def termination(self) -> str:
-        """Why the loop ended, as in `epipole.optim.LmReport`."""
+        """Reason the loop ended, as in `epipole.optim.LmReport`."""
     @property
     def num_components(self) -> int:
         """Number of connected parts."""
@@ -1195,14 +1196,14 @@ class PoseGraphReport:
 
 @final
 class LoopClosure:
-    """Frame that shows part of an earlier one.
+    """Motion between two frames that show the same scene.
 
     Parameters
     ----------
     from_index, to_index : int
-        Indices of the earlier and of the later frame.
+        Indices of the earlier and the later frame.
     from_from_to : Similarity3
-        Later camera in the frame of the earlier one, with the ratio of their scales.
+        Pose of the later camera in the frame of the earlier one, with the ratio of their scales.
     weight : float, optional
         Weight relative to one step of odometry.
     """
@@ -1221,7 +1222,7 @@ class LoopClosure:
         """Index of the later frame."""
     @property
     def from_from_to(self) -> Similarity3:
-        """Later camera in the frame of the earlier one."""
+        """Pose of the later camera in the frame of the earlier one."""
     @property
     def weight(self) -> float:
         """Weight relative to one step of odometry."""
@@ -1230,14 +1231,14 @@ class LoopClosure:
 
 @final
 class ClosedPath:
-    """Path after its loops were closed.
+    """Path after loop closing.
 
     Parameters
     ----------
     world_from_cam
         ``world_from_cam`` of each frame, a list of `RigidTransform`.
     scale
-        Factor of lengths around each frame, shape (N,).
+        Scale factor of each frame, shape (N,).
     report
         `PoseGraphReport` of the optimization.
     """
@@ -1252,7 +1253,7 @@ class ClosedPath:
         """``world_from_cam`` of each frame, a list of `RigidTransform`."""
     @property
     def scale(self) -> NDArray[np.float64]:
-        """Factor of lengths around each frame, shape (N,)."""
+        """Scale factor of each frame, shape (N,)."""
     @property
     def report(self) -> PoseGraphReport:
         """`PoseGraphReport` of the optimization."""
@@ -1261,19 +1262,19 @@ class ClosedPath:
 
 @final
 class VerifiedPair:
-    """Pair of images that passed the test of epipolar geometry.
+    """Geometrically verified pair of images.
 
     Parameters
     ----------
     pair
-        Matches that passed.
+        Verified matches.
     cam2_from_cam1
-        Motion of the camera, ``|t| == 1``.
+        Motion of the camera, with ``|t| == 1``.
     median_angle_rad
-        Median angle between the two rays of a match, radians: small for pure rotations and far
+        Median triangulation angle of the matches, radians: small for pure rotations and distant
         scenes; 0 if a plane and a pure rotation explain the matches.
     is_flat
-        Whether a homography explains most matches: a flat scene, or a pure rotation.
+        Whether a homography explains most matches: a flat scene or a pure rotation.
     """
     def __new__(
         cls,
@@ -1284,41 +1285,41 @@ class VerifiedPair:
     ) -> VerifiedPair: ...
     @property
     def pair(self) -> PairMatches:
-        """Matches that passed."""
+        """Verified matches."""
     @property
     def cam2_from_cam1(self) -> RigidTransform:
-        """Motion of the camera, ``|t| == 1``."""
+        """Motion of the camera, with ``|t| == 1``."""
     @property
     def median_angle_rad(self) -> float:
-        """Median angle between the two rays of a match, radians: small for pure rotations and far
+        """Median triangulation angle of the matches, radians: small for pure rotations and distant
         scenes; 0 if a plane and a pure rotation explain the matches.
         """
     @property
     def is_flat(self) -> bool:
-        """Whether a homography explains most matches: a flat scene, or a pure rotation."""
+        """Whether a homography explains most matches: a flat scene or a pure rotation."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class TwoViewReconstruction:
-    """Two cameras and their points, in the frame of camera 1; the cameras have distance 1.
+    """Two cameras at distance 1 and their points, in the frame of camera 1.
 
     Parameters
     ----------
     cam2_from_cam1
-        Refined motion, ``|t| == 1``.
+        Refined motion, with ``|t| == 1``.
     points
         Points, shape (P, 3).
     triangulated
-        The same points as first triangulated, shape (P, 3).
+        The same points before refinement, shape (P, 3).
     match_of_point
         Index of the match of each point, increasing, int64 of shape (P,).
     num_in_front
-        Number of matches in front of both cameras by each of the four motions of E, most first.
+        Number of matches in front of both cameras for each motion of E, in descending order.
     rms_before_px
-        Root mean square of the reprojection errors as first triangulated, pixels.
+        Root mean square of the reprojection errors before refinement, pixels.
     rms_px
-        Root mean square after the refinement, pixels.
+        Root mean square of the reprojection errors after refinement, pixels.
     report
         `epipole.optim.LmReport` of the last refinement.
     """
@@ -1335,25 +1336,25 @@ class TwoViewReconstruction:
     ) -> TwoViewReconstruction: ...
     @property
     def cam2_from_cam1(self) -> RigidTransform:
-        """Refined motion, ``|t| == 1``."""
+        """Refined motion, with ``|t| == 1``."""
     @property
     def points(self) -> NDArray[np.float64]:
         """Points, shape (P, 3)."""
     @property
     def triangulated(self) -> NDArray[np.float64]:
-        """The same points as first triangulated, shape (P, 3)."""
+        """The same points before refinement, shape (P, 3)."""
     @property
     def match_of_point(self) -> NDArray[np.int64]:
         """Index of the match of each point, increasing, int64 of shape (P,)."""
     @property
     def num_in_front(self) -> list[int]:
-        """Number of matches in front of both cameras by each of the four motions of E, most first."""
+        """Number of matches in front of both cameras for each motion of E, in descending order."""
     @property
     def rms_before_px(self) -> float:
-        """Root mean square of the reprojection errors as first triangulated, pixels."""
+        """Root mean square of the reprojection errors before refinement, pixels."""
     @property
     def rms_px(self) -> float:
-        """Root mean square after the refinement, pixels."""
+        """Root mean square of the reprojection errors after refinement, pixels."""
     @property
     def report(self) -> LmReport:
         """`epipole.optim.LmReport` of the last refinement."""
@@ -1365,7 +1366,7 @@ def align_points(
     to_points: ArrayLike,
     kind: Literal["similarity", "rigid"] | None = None,
 ) -> Similarity3:
-    """Transform ``T`` with the least ``sum(|T @ from - to|**2)``, in closed form (Umeyama).
+    """Aligns points: finds the ``T`` that minimizes ``sum(|T @ from - to|**2)`` (Umeyama).
 
     Parameters
     ----------
@@ -1381,9 +1382,9 @@ def align_points(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 points.
+        If there are fewer than 3 points.
     epipole.DegenerateError
-        Points of either set equal or on one line.
+        If the points of either set are equal or on a line.
 
     Examples
     --------
@@ -1395,7 +1396,7 @@ def absolute_trajectory_error(
     truth: ArrayLike,
     kind: Literal["similarity", "rigid"] | None = None,
 ) -> tuple[ErrorStatistics, Similarity3]:
-    """Absolute trajectory error: distances between camera centers after the best alignment.
+    """Computes the absolute trajectory error: distances of camera centers after alignment.
 
     Parameters
     ----------
@@ -1413,23 +1414,23 @@ def absolute_trajectory_error(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 points.
+        If there are fewer than 3 points.
     epipole.DegenerateError
-        Points of either set equal or on one line.
+        If the points of either set are equal or on a line.
     """
 def relative_pose_error(
     estimated: Sequence[RigidTransform],
     truth: Sequence[RigidTransform],
     step: int = 1,
 ) -> RelativePoseError:
-    """Relative pose error: difference of the motions over some frames.
+    """Computes the relative pose error: differences of the motions over a number of frames.
 
     Parameters
     ----------
     estimated, truth : list of RigidTransform
         ``world_from_cam`` of the same frames, in order.
     step : int, optional
-        Number of frames between the two ends of a motion, >= 1.
+        Number of frames from the start to the end of a motion, >= 1.
 
     Returns
     -------
@@ -1438,9 +1439,9 @@ def relative_pose_error(
     Raises
     ------
     epipole.TooFewError
-        No more poses than ``step``.
+        If there are no more poses than ``step``.
     ValueError
-        ``step`` of 0.
+        If ``step`` is 0.
     """
 def adjust_bundle(
     bundle: Bundle,
@@ -1448,19 +1449,20 @@ def adjust_bundle(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.BundleOptions],
 ) -> tuple[Bundle, LmReport]:
-    """Refines cameras and points, and their lenses if asked, by the reprojection errors.
+    """Refines cameras, points and, optionally, lenses by minimizing the reprojection errors.
 
     Parameters
     ----------
     bundle : Bundle
-        It is not changed.
+        Not changed.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : BundleOptions
-        ``loss``, of pixels; ``refine_focal``, ``refine_principal_point``, ``refine_distortion``,
-        ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``; ``held_cameras`` and
-        ``held_points``, lists of bool; ``position_priors``, a list of `PositionPrior` or None;
-        ``position_loss``; ``lm``, a dict such as ``{"max_iterations": 50}``.
+        ``loss``, its width in pixels; ``refine_focal``, ``refine_principal_point``,
+        ``refine_distortion``, ``refine_tangential``; ``gauge``, ``"two_cameras"`` or ``"free"``;
+        ``held_cameras`` and ``held_points``, lists of bool; ``position_priors``, a list of
+        `PositionPrior` or None; ``position_loss``; ``lm``, a dict such as ``{"max_iterations":
+        50}``.
 
     Returns
     -------
@@ -1470,12 +1472,13 @@ def adjust_bundle(
     Raises
     ------
     epipole.TooFewError
-        No observations.
+        If there are no observations.
     epipole.DegenerateError
-        Cameras of one lens number with different lenses.
+        If cameras with the same lens number have different lenses.
     ValueError
-        Observation of a camera, point or sensor that does not exist, a lens number out of range,
-        loss width or standard deviation not above 0, or no finite cost at the start.
+        If an observation refers to a missing camera, point or sensor, a lens number is out of
+        range, the loss width or a standard deviation is not above 0, or the initial cost is not
+        finite.
     """
 def adjust_bal(
     problem: BalProblem,
@@ -1489,11 +1492,11 @@ def adjust_bal(
     Parameters
     ----------
     problem : BalProblem
-        It is not changed.
+        Not changed.
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : LmOptions
         ``max_iterations``, ``gradient_tolerance``, ``step_tolerance``, ``cost_tolerance``,
         ``initial_damping``, ``patience``.
@@ -1506,10 +1509,10 @@ def adjust_bal(
     Raises
     ------
     epipole.TooFewError
-        No observations.
+        If there are no observations.
     ValueError
-        Observation of a camera or point that does not exist, loss width not above 0, or no finite
-        cost at the start.
+        If an observation refers to a missing camera or point, the loss width is not above 0, or the
+        initial cost is not finite.
     """
 def reconstruct(
     input: SfmInput,
@@ -1517,13 +1520,13 @@ def reconstruct(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SfmOptions],
 ) -> SfmResult:
-    """Cameras and points from matches between images.
+    """Reconstructs cameras and points from matches between images.
 
     Parameters
     ----------
     input : SfmInput
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SfmOptions
         ``ransac``, a dict; ``max_registration_error_px``, ``max_reprojection_error_px``,
         ``min_num_inliers``, ``min_angle_deg``, ``min_start_angle_deg``, ``min_track_length``,
@@ -1533,16 +1536,16 @@ def reconstruct(
     Returns
     -------
     SfmResult
-        Without components if no pair has enough matches.
+        No components if no pair has enough matches.
 
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images.
+        If there are fewer than 2 images.
     epipole.DegenerateError
-        Images of one lens number whose cameras have different lenses.
+        If images with the same lens number have cameras with different lenses.
     ValueError
-        Option out of range, or a match of an image or keypoint that does not exist.
+        If an option is out of range, or a match refers to a missing image or keypoint.
     """
 def why_unregistered(
     input: SfmInput,
@@ -1551,7 +1554,7 @@ def why_unregistered(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SfmOptions],
 ) -> list[WhyUnregistered]:
-    """Reasons why images are in no reconstruction.
+    """Returns the reasons why images are in no reconstruction.
 
     Parameters
     ----------
@@ -1559,9 +1562,9 @@ def why_unregistered(
     result : SfmResult
         Result of `reconstruct`.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SfmOptions
-        Those given to `reconstruct`.
+        Options given to `reconstruct`.
 
     Returns
     -------
@@ -1571,12 +1574,12 @@ def why_unregistered(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images.
+        If there are fewer than 2 images.
     epipole.DegenerateError
-        Images of one lens number whose cameras have different lenses.
+        If images with the same lens number have cameras with different lenses.
     ValueError
-        Option out of range, a match of an image or keypoint that does not exist, or ``result`` of
-        other images.
+        If an option is out of range, a match refers to a missing image or keypoint, or ``result``
+        belongs to other images.
     """
 def triangulate_tracks(
     input: SfmInput,
@@ -1585,32 +1588,32 @@ def triangulate_tracks(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SfmOptions],
 ) -> Reconstruction:
-    """Points from matches between images whose poses are known; cameras stay as they are.
+    """Triangulates points from matches between images with known poses; cameras do not change.
 
     Parameters
     ----------
     input : SfmInput
     cam_from_world : list of RigidTransform or None
-        Pose of each image; one without takes no part.
+        Pose of each image; images without a pose are ignored.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SfmOptions
-        Those of `reconstruct`: ``max_reprojection_error_px``, ``min_angle_deg``,
+        See `reconstruct`; used are ``max_reprojection_error_px``, ``min_angle_deg``,
         ``min_track_length``.
 
     Returns
     -------
     Reconstruction
-        Points in the world of the poses; few or none if the poses are not those of the images.
+        Points in the world frame of the poses; few or none if the poses do not match the images.
 
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images or poses.
+        If there are fewer than 2 images or poses.
     epipole.DegenerateError
-        Images of one lens number whose cameras have different lenses.
+        If images with the same lens number have cameras with different lenses.
     ValueError
-        Option out of range, or a match of an image or keypoint that does not exist.
+        If an option is out of range, or a match refers to a missing image or keypoint.
     """
 def photo_features(
     photo: Photo,
@@ -1618,13 +1621,13 @@ def photo_features(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.PhotoOptions],
 ) -> PhotoFeatures:
-    """Keypoints and descriptors of a photo.
+    """Detects keypoints and descriptors of a photo.
 
     Parameters
     ----------
     photo : Photo
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : PhotoOptions
         ``features``, a dict of the options of `epipole.feature.detect_features`.
 
@@ -1635,7 +1638,7 @@ def photo_features(
     Raises
     ------
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def match_features(
     features: Sequence[PhotoFeatures],
@@ -1644,16 +1647,16 @@ def match_features(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.PhotoOptions],
 ) -> list[PairMatches]:
-    """Matches between all pairs of photos, or between those that are near in order.
+    """Matches all pairs of photos, or those close in order.
 
     Parameters
     ----------
     features : list of PhotoFeatures
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : PhotoOptions
         ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
-        photos to match each with, 0 for all; ``best_first``.
+        photos to match with each photo, 0 for all; ``best_first``.
 
     Returns
     -------
@@ -1662,9 +1665,9 @@ def match_features(
     Raises
     ------
     epipole.DegenerateError
-        Numbers in one list of descriptors and bits in another.
+        If some lists of descriptors are float and others binary.
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def match_photos(
     photos: Sequence[Photo],
@@ -1672,15 +1675,15 @@ def match_photos(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.PhotoOptions],
 ) -> tuple[list[SfmImage], list[PairMatches]]:
-    """Keypoints of all photos and matches between all pairs of them.
+    """Detects keypoints in all photos and matches them between all pairs.
 
     Parameters
     ----------
     photos : list of Photo
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : PhotoOptions
-        Those of `photo_features` and `match_features`.
+        See `photo_features` and `match_features`.
 
     Returns
     -------
@@ -1690,9 +1693,9 @@ def match_photos(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 photos.
+        If there are fewer than 2 photos.
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def match_rectified(
     left: PhotoFeatures,
@@ -1701,15 +1704,15 @@ def match_rectified(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.PhotoOptions],
 ) -> Matches:
-    """Matches between the two images of a rectified stereo pair.
+    """Matches the two images of a rectified stereo pair.
 
     Parameters
     ----------
     left, right : PhotoFeatures
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : PhotoOptions
-        Those of `match_features`.
+        See `match_features`.
 
     Returns
     -------
@@ -1718,9 +1721,9 @@ def match_rectified(
     Raises
     ------
     epipole.DegenerateError
-        Numbers in one list of descriptors and bits in the other.
+        If one list of descriptors is float and the other binary.
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def reconstruct_photos(
     photos: Sequence[Photo],
@@ -1730,7 +1733,7 @@ def reconstruct_photos(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SfmOptions],
 ) -> tuple[SfmInput, SfmResult]:
-    """Cameras and points from photos: features, matches, and `reconstruct`.
+    """Reconstructs cameras and points from photos: features, matches, and `reconstruct`.
 
     Parameters
     ----------
@@ -1740,9 +1743,9 @@ def reconstruct_photos(
     photo_options : dict, optional
         Options of `match_photos`.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SfmOptions
-        Those of `reconstruct`.
+        See `reconstruct`.
 
     Returns
     -------
@@ -1753,11 +1756,11 @@ def reconstruct_photos(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 photos.
+        If there are fewer than 2 photos.
     epipole.DegenerateError
-        Photos of one lens number whose cameras have different lenses.
+        If photos with the same lens number have cameras with different lenses.
     ValueError
-        Option out of range.
+        If an option is out of range.
     """
 def monocular_odometry(
     input: SfmInput,
@@ -1765,17 +1768,17 @@ def monocular_odometry(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.OdometryOptions],
 ) -> OdometryResult:
-    """Path of a single camera, up to scale.
+    """Estimates the path of a single camera, up to scale.
 
     Parameters
     ----------
     input : SfmInput
-        Frames in order of time, and matches between frames that are near in time.
+        Frames in order of time, and matches between frames close in time.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : OdometryOptions
-        ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes that
-        are refined together; ``final_adjustment``.
+        ``sfm``, a dict of the options of `reconstruct`; ``window``, the number of keyframes refined
+        together; ``final_adjustment``.
 
     Returns
     -------
@@ -1784,12 +1787,12 @@ def monocular_odometry(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images.
+        If there are fewer than 2 images.
     epipole.DegenerateError
-        No two images with enough points under a sufficient angle, or images of one lens number
-        whose cameras have different lenses.
+        If no two images have enough points at a sufficient angle, or images with the same lens
+        number have cameras with different lenses.
     ValueError
-        Option out of range, or a match of an image or keypoint that does not exist.
+        If an option is out of range, or a match refers to a missing image or keypoint.
     """
 def stereo_odometry(
     left: SfmInput,
@@ -1801,7 +1804,7 @@ def stereo_odometry(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.OdometryOptions],
 ) -> OdometryResult:
-    """Path of a stereo rig, in the unit of its baseline.
+    """Estimates the path of a stereo rig, in the unit of its baseline.
 
     Parameters
     ----------
@@ -1814,9 +1817,9 @@ def stereo_odometry(
     right_from_left : RigidTransform
     right_camera : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : OdometryOptions
-        Those of `monocular_odometry`.
+        See `monocular_odometry`.
 
     Returns
     -------
@@ -1825,12 +1828,12 @@ def stereo_odometry(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 images.
+        If there are fewer than 2 images.
     epipole.DegenerateError
-        Rig without a baseline, too few matches in the first frame, or images of one lens number
-        whose cameras have different lenses.
+        If the rig has no baseline, the first frame has too few matches, or images with the same
+        lens number have cameras with different lenses.
     ValueError
-        Option out of range, or a match of an image or keypoint that does not exist.
+        If an option is out of range, or a match refers to a missing image or keypoint.
     """
 def close_loops(
     world_from_cam: Sequence[RigidTransform],
@@ -1840,20 +1843,20 @@ def close_loops(
     loss: str | Mapping[str, Any] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> ClosedPath:
-    """Spreads the error of closed loops over a path.
+    """Distributes the error of closed loops over a path.
 
     Parameters
     ----------
     world_from_cam : list of RigidTransform
-        Path, frame after frame. The first frame stays.
+        Path, frame by frame. The first frame is held fixed.
     loops : list of LoopClosure
     motion : {"similarity", "rigid"}, optional
         With or without a scale of each frame.
     loss : str or dict, optional
-        Of standard deviations of a step: ``"trivial"``, or ``{"huber": {"width": 1.0}}``,
-        ``"cauchy"``, ``"truncated"`` likewise.
+        Its width is in standard deviations of a step: ``"trivial"``, or ``{"huber": {"width":
+        1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -1862,9 +1865,10 @@ def close_loops(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 poses, or no loops.
+        If there are fewer than 2 poses, or no loops.
     ValueError
-        Loop of a frame that does not exist or with itself, or a weight or loss width not above 0.
+        If a loop refers to a missing frame or joins a frame with itself, or a weight or loss width
+        is not above 0.
     """
 def estimate_similarity_of_points(
     from_points: ArrayLike,
@@ -1872,13 +1876,13 @@ def estimate_similarity_of_points(
     max_distance: float,
     seed: int = 0,
 ) -> tuple[Similarity3, NDArray[np.bool_]]:
-    """Similarity between two reconstructions of the same points, some of which are wrong.
+    """Estimates the similarity between two reconstructions from point pairs with outliers.
 
     Parameters
     ----------
     from_points, to_points : array_like, shape (N, 3)
     max_distance : float
-        Threshold of inliers, in the unit of `to_points`.
+        Inlier threshold, in the unit of `to_points`.
     seed : int, optional
 
     Returns
@@ -1889,11 +1893,11 @@ def estimate_similarity_of_points(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 finite points.
+        If there are fewer than 3 finite points.
     epipole.NoConsensusError
-        Fewer than 4 points that agree.
+        If fewer than 4 points agree.
     ValueError
-        ``max_distance`` not above 0.
+        If ``max_distance`` is not above 0.
     """
 def average_rotations(
     count: int,
@@ -1903,7 +1907,7 @@ def average_rotations(
     loss: str | Mapping[str, Any] | None = None,
     progress: Callable[[str, float], object] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Rotations of views that agree best with those measured between pairs of them.
+    """Computes the rotations of views that best fit measured rotations between pairs.
 
     Parameters
     ----------
@@ -1912,12 +1916,12 @@ def average_rotations(
     pairs : array_like of int, shape (M, 2)
         Indices of the two views of each measurement.
     to_from_from : array_like, shape (M, 3, 3)
-        Rotation from the frame of the first view to that of the second.
+        Rotation from the frame of the first view to the frame of the second.
     loss : str or dict, optional
-        Of radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``, ``"cauchy"``,
+        Its width is in radians: ``"trivial"``, or ``{"huber": {"width": 0.05}}``; ``"cauchy"`` and
         ``"truncated"`` likewise.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -1929,10 +1933,10 @@ def average_rotations(
     Raises
     ------
     epipole.TooFewError
-        No measurements.
+        If there are no measurements.
     ValueError
-        Index of no view, a view joined with itself, a matrix that is no rotation, or a loss width
-        not above 0.
+        If an index is out of range, a view is joined with itself, a matrix is not a rotation, or a
+        loss width is not above 0.
     """
 def build_tracks(
     num_keypoints: Sequence[int],
@@ -1945,18 +1949,18 @@ def build_tracks(
     num_keypoints : list of int
         Number of keypoints of each image.
     pairs : list of PairMatches
-        Matches that passed a geometric test. Those of pairs with many matches are trusted first.
+        Geometrically verified matches. Pairs with many matches take precedence.
 
     Returns
     -------
     ndarray of int64, shape (K, 3)
-        Index of the track, of the image, and of its keypoint, sorted. A track has at most one
-        keypoint of an image.
+        Indices of the track, the image and its keypoint, sorted. A track has at most one keypoint
+        per image.
 
     Raises
     ------
     ValueError
-        Match of an image or keypoint that does not exist, or of an image with itself.
+        If a match refers to a missing image or keypoint, or joins an image with itself.
     """
 def verify_matches(
     pair: PairMatches,
@@ -1966,7 +1970,7 @@ def verify_matches(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.SfmOptions],
 ) -> VerifiedPair | None:
-    """Matches of two images that agree with one motion of the camera.
+    """Selects the matches of two images that agree with one motion of the camera.
 
     Parameters
     ----------
@@ -1974,21 +1978,21 @@ def verify_matches(
     images : tuple of SfmImage
         The two images.
     cameras : tuple of Camera
-        Their cameras.
+        Cameras of the two images.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : SfmOptions
-        Those of `reconstruct`: ``ransac``, a dict, ``min_num_inliers``, ``seed``.
+        See `reconstruct`; used are ``ransac``, a dict, ``min_num_inliers``, ``seed``.
 
     Returns
     -------
     VerifiedPair or None
-        None if too few agree.
+        None if too few matches agree.
 
     Raises
     ------
     ValueError
-        Match of a keypoint that does not exist.
+        If a match refers to a missing keypoint.
     """
 def two_view_reconstruction(
     pixels1: ArrayLike,
@@ -2000,7 +2004,7 @@ def two_view_reconstruction(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.TwoViewReconstructionOptions],
 ) -> TwoViewReconstruction:
-    """Points of the matches of two views, refined together with the motion.
+    """Triangulates the matches of two views and refines points and motion together.
 
     Parameters
     ----------
@@ -2008,9 +2012,9 @@ def two_view_reconstruction(
         Matches without outliers.
     camera1, camera2 : Camera
     cam2_from_cam1 : RigidTransform
-        Motion to start from; the length of its translation does not matter.
+        Initial motion; the length of its translation does not matter.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : TwoViewReconstructionOptions
         ``min_angle_rad``, ``max_error_px``, ``min_num_points``; ``bundle``, a dict of the options
         of `adjust_bundle`.
@@ -2022,10 +2026,10 @@ def two_view_reconstruction(
     Raises
     ------
     epipole.TooFewError
-        Fewer than ``min_num_points`` points left.
+        If fewer than ``min_num_points`` points are left.
     epipole.DegenerateError
-        Motion without translation.
+        If the motion has no translation.
     ValueError
-        ``min_angle_rad`` below 0, ``max_error_px`` not above 0, or an option of ``bundle`` out of
-        range.
+        If ``min_angle_rad`` is below 0, ``max_error_px`` is not above 0, or an option of ``bundle``
+        is out of range.
     """

@@ -35,13 +35,14 @@ __all__ = [
 
 @final
 class StereoBm:
-    """Dense disparity of a rectified pair by block matching: fast.
+    """Fast dense stereo of a rectified pair by block matching.
 
     Parameters
     ----------
     **options : StereoBm
-        Such as ``num_disparities``, ``min_disparity_px``, ``window_px`` (odd), and ``filter``,
-        a dict with entries such as ``"speckle_size"``. ``StereoBm()`` shows all, with defaults.
+        For example ``num_disparities``, ``min_disparity_px``, ``window_px`` (odd), and
+        ``filter``, a dict with entries such as ``"speckle_size"``. ``StereoBm()`` shows all
+        options with their defaults.
     """
     def __new__(cls, **options: Unpack[option_types.StereoBm]) -> StereoBm: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -53,15 +54,15 @@ class StereoBm:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> NDArray[np.float32]:
-        """Disparities ``u_left - u_right`` of the pixels of `left`.
+        """Computes disparities ``u_left - u_right`` of the pixels of `left`.
 
         Parameters
         ----------
         left, right : array_like, shape (H, W)
-            Rectified gray images: matches share a row. Both uint8, or both float of any
-            range, whose smallest and largest value become 0 and 255.
+            Rectified gray images whose matches share a row. Both uint8, or both float with
+            any range; their minimum and maximum are mapped to 0 and 255.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Returns
         -------
@@ -71,20 +72,21 @@ class StereoBm:
         Raises
         ------
         ValueError
-            Option out of range, or too many pixels times disparities for the memory.
+            If an option is out of range, or the volume (pixels × disparities) is too large
+            for memory.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class StereoSgm:
-    """Dense disparity of a rectified pair by semi-global matching.
+    """Dense stereo of a rectified pair by semi-global matching.
 
     Parameters
     ----------
     **options : StereoSgm
-        Such as ``num_disparities``, ``min_disparity_px``, ``paths`` ("four", "five", "eight"),
-        and ``filter``, a dict with entries such as ``"speckle_size"``. ``StereoSgm()`` shows
-        all, with defaults.
+        For example ``num_disparities``, ``min_disparity_px``, ``paths`` ("four", "five",
+        "eight"), and ``filter``, a dict with entries such as ``"speckle_size"``.
+        ``StereoSgm()`` shows all options with their defaults.
     """
     def __new__(cls, **options: Unpack[option_types.StereoSgm]) -> StereoSgm: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -96,15 +98,15 @@ class StereoSgm:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> NDArray[np.float32]:
-        """Disparities ``u_left - u_right`` of the pixels of `left`.
+        """Computes disparities ``u_left - u_right`` of the pixels of `left`.
 
         Parameters
         ----------
         left, right : array_like, shape (H, W)
-            Rectified gray images: matches share a row. Both uint8, or both float of any
-            range, whose smallest and largest value become 0 and 255.
+            Rectified gray images whose matches share a row. Both uint8, or both float with
+            any range; their minimum and maximum are mapped to 0 and 255.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Returns
         -------
@@ -114,13 +116,14 @@ class StereoSgm:
         Raises
         ------
         ValueError
-            Option out of range, or too many pixels times disparities for the memory.
+            If an option is out of range, or the volume (pixels × disparities) is too large
+            for memory.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class DepthInterval:
-    """Depths that an uncertain disparity allows.
+    """Depths compatible with an uncertain disparity.
 
     Parameters
     ----------
@@ -151,7 +154,7 @@ class PointCloud:
     normals : ndarray of float64, shape (N, 3), optional
         Unit normals.
     confidences : ndarray of float32, shape (N,), optional
-        Numbers of photos that agree on a point.
+        Number of photos that agree on each point.
     """
     def __new__(
         cls,
@@ -171,19 +174,19 @@ class PointCloud:
         """Unit normals, shape (N, 3), or None."""
     @property
     def confidences(self) -> NDArray[np.float32] | None:
-        """Numbers of photos that agree on a point, float32 of shape (N,), or None."""
+        """Number of photos that agree on each point, float32 of shape (N,), or None."""
     def __eq__(self, other: object, /) -> bool: ...
     def __len__(self) -> int: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class PixelMap:
-    """Place in a source image that each pixel of a result is read from.
+    """Map from each pixel of a result to a position in a source image.
 
     Parameters
     ----------
     sources : array_like of float, shape (H, W, 2)
-        (u, v) in the source, pixels; NaN for none. Kept as float32.
+        (u, v) in the source, pixels; NaN for none. Stored as float32.
     """
     def __new__(cls, sources: ArrayLike) -> PixelMap: ...
     @property
@@ -194,7 +197,7 @@ class PixelMap:
         """Height of the result, pixels."""
     @property
     def sources(self) -> NDArray[np.float32]:
-        """Places in the source, float32 of shape (H, W, 2); NaN for none."""
+        """Positions in the source, float32 of shape (H, W, 2); NaN for none."""
     def __eq__(self, other: object, /) -> bool: ...
     @staticmethod
     def from_homography(
@@ -204,26 +207,26 @@ class PixelMap:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> PixelMap:
-        """Map of a homography.
+        """Creates the map of a homography.
 
         Parameters
         ----------
         width, height : int
             Size of the result, pixels.
         out_from_source : array_like, shape (3, 3)
-            Pixels of the source to pixels of the result, up to scale.
+            Homography from pixels of the source to pixels of the result, at any scale.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Raises
         ------
         epipole.DegenerateError
-            Matrix without an inverse.
+            If the matrix has no inverse.
         ValueError
-            Result of more than 2**32 pixels.
+            If the result has more than 2**32 pixels.
         """
     def source(self, u: int, v: int) -> NDArray[np.float64] | None:
-        """Place in the source that pixel (u, v) of the result is read from, shape (2,), or None.
+        """Returns the source position of pixel (u, v) of the result, shape (2,), or None.
 
         Parameters
         ----------
@@ -236,21 +239,21 @@ class PixelMap:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> NDArray[Any]:
-        """Redrawn image, bilinear, 0 where nothing is read.
+        """Warps an image, bilinearly, with 0 where nothing is read.
 
         Parameters
         ----------
         source : array_like, shape (h, w) or (h, w, 3)
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Returns
         -------
         ndarray of uint8 or float32, shape (H, W) or (H, W, 3)
-            uint8 for uint8, else float32.
+            uint8 for a uint8 image, else float32.
         """
     def mask(self, source_width: int, source_height: int) -> NDArray[np.uint8]:
-        """Mask of the pixels that read an image of the given size, uint8 of shape (H, W): 255 or 0.
+        """Returns 255 where an image of the given size is read, else 0; uint8 of shape (H, W).
 
         Parameters
         ----------
@@ -266,60 +269,60 @@ class PixelRect:
     Parameters
     ----------
     u_min
-        Left end.
+        Left edge.
     v_min
-        Upper end.
+        Top edge.
     u_max
-        Right end.
+        Right edge.
     v_max
-        Lower end.
+        Bottom edge.
     """
     def __new__(cls, u_min: float, v_min: float, u_max: float, v_max: float) -> PixelRect: ...
     @property
     def u_min(self) -> float:
-        """Left end."""
+        """Left edge."""
     @property
     def v_min(self) -> float:
-        """Upper end."""
+        """Top edge."""
     @property
     def u_max(self) -> float:
-        """Right end."""
+        """Right edge."""
     @property
     def v_max(self) -> float:
-        """Lower end."""
+        """Bottom edge."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Rectification:
-    """Rectified rig: two virtual cameras that are parallel and share a focal length.
+    """Rectified rig: two virtual parallel cameras with the same focal length.
 
-    Matches share a row, or a column if `is_vertical`. `rectify_calibrated` makes it.
+    Matches share a row, or a column if `is_vertical`. Created by `rectify_calibrated`.
 
     Parameters
     ----------
     cameras : tuple of Camera
-        Of the photos.
+        Cameras of the photos.
     rect_from_cam : array_like, shape (2, 3, 3)
         Rotations of the cameras' rays into the rectified frame.
     intrinsics : tuple of Intrinsics
-        Of the rectified pictures.
+        Intrinsics of the rectified images.
     homographies : array_like, shape (2, 3, 3)
-        From pixels of the photos to those of the pictures, for a pinhole.
+        Homographies from undistorted pixels of the photos to rectified pixels.
     q : array_like, shape (4, 4)
         ``(X, Y, Z, W) = q @ (u, v, d, 1)``.
     is_vertical : bool
     baseline_m : float
-        Meters.
+        Distance between the cameras, meters.
     width, height : int
-        Size of the pictures, pixels.
+        Size of the rectified images, pixels.
     valid : tuple of PixelRect
-        Part of each picture that its photo fills.
+        Part of each rectified image that its photo fills.
 
     Raises
     ------
     ValueError
-        Matrix in ``rect_from_cam`` that is no rotation.
+        If a matrix in ``rect_from_cam`` is not a rotation.
     """
     def __new__(
         cls,
@@ -348,15 +351,13 @@ class Rectification:
         """Homographies from undistorted pixels of the photos to rectified pixels, shape (2, 3, 3)."""
     @property
     def q(self) -> NDArray[np.float64]:
-        """Q of ``(X, Y, Z, W) = Q @ (u, v, d, 1)``, in the rectified frame of the first camera, shape
-        (4, 4).
-        """
+        """Q, ``(X, Y, Z, W) = Q @ (u, v, d, 1)`` in camera 1's rectified frame, shape (4, 4)."""
     @property
     def is_vertical(self) -> bool:
         """Whether matches share a column: the second camera is above or below the first."""
     @property
     def baseline_m(self) -> float:
-        """Distance of the cameras, meters."""
+        """Distance between the cameras, meters."""
     @property
     def width(self) -> int:
         """Width of the rectified images, pixels."""
@@ -365,10 +366,10 @@ class Rectification:
         """Height of the rectified images, pixels."""
     @property
     def valid(self) -> tuple[PixelRect, PixelRect]:
-        """Large rectangles in the rectified images that the cameras saw whole, a pair."""
+        """Large rectangles of the rectified images that are full of image content, a pair."""
     def __eq__(self, other: object, /) -> bool: ...
     def rectify_pixel(self, index: int, pixel: ArrayLike) -> NDArray[np.float64]:
-        """Rectified pixels of pixels of photo 0 or 1.
+        """Maps pixels of photo 0 or 1 to rectified pixels.
 
         Parameters
         ----------
@@ -384,12 +385,12 @@ class Rectification:
         Raises
         ------
         epipole.DegenerateError
-            Single pixel without a ray, or with one behind the rectified camera.
+            If a single pixel is given and has no ray, or its ray is behind the rectified camera.
         ValueError
-            ``index`` not 0 or 1.
+            If ``index`` is not 0 or 1.
         """
     def source_pixel(self, index: int, rectified: ArrayLike) -> NDArray[np.float64]:
-        """Pixels of photo 0 or 1 that rectified pixels are read from.
+        """Maps rectified pixels to pixels of photo 0 or 1.
 
         Parameters
         ----------
@@ -400,14 +401,14 @@ class Rectification:
         Returns
         -------
         ndarray of the same shape
-            Rows of NaN for pixels that the camera cannot see.
+            Rows of NaN for pixels outside the camera's view.
 
         Raises
         ------
         epipole.DegenerateError
-            Single pixel that the camera does not see.
+            If a single pixel is given and the camera does not see it.
         ValueError
-            ``index`` not 0 or 1.
+            If ``index`` is not 0 or 1.
         """
     def map(
         self,
@@ -415,22 +416,22 @@ class Rectification:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> PixelMap:
-        """Map that redraws photo 0 or 1.
+        """Creates the map that rectifies photo 0 or 1.
 
         Parameters
         ----------
         index : int
             0 for the first camera, 1 for the second.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Raises
         ------
         ValueError
-            ``index`` not 0 or 1.
+            If ``index`` is not 0 or 1.
         """
     def disparity_of(self, place: ArrayLike) -> NDArray[np.float64]:
-        """Pixels of the first rectified image that show points, and their disparities.
+        """Projects points into the first rectified image, with their disparities.
 
         Parameters
         ----------
@@ -445,10 +446,10 @@ class Rectification:
         Raises
         ------
         epipole.DegenerateError
-            Single point that a camera does not see.
+            If a single point is given and a camera does not see it.
         """
     def disparity_range(self, places: ArrayLike) -> tuple[int, int]:
-        """Smallest and largest disparity to search, pixels, from points that both photos show.
+        """Returns the minimum and maximum disparity to search, pixels, from points in both photos.
 
         Parameters
         ----------
@@ -462,23 +463,23 @@ class Rectification:
         Raises
         ------
         epipole.TooFewError
-            Fewer than 8 points that the first image shows.
+            If the first image shows fewer than 8 points.
         """
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class RectifiedPair:
-    """Two photos as a rectified rig sees them.
+    """Two photos warped by a rectified rig.
 
-    Borders that no photo fills have no disparities, and vertical rigs are turned for matching.
+    Empty borders get no disparities, and images of vertical rigs are transposed for matching.
 
     Parameters
     ----------
     rig : Rectification
     photograph1, photograph2 : array_like, shape (H, W, 3)
-        uint8, of the sizes of the rig's cameras.
+        uint8, with the image sizes of the rig's cameras.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     """
     def __new__(
         cls,
@@ -499,7 +500,7 @@ class RectifiedPair:
         """Second photo, uint8 of shape (H, W, 3)."""
     @property
     def pictures(self) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-        """Redrawn photos, black where they fill nothing.
+        """Rectified photos, black outside the image content.
 
         Returns
         -------
@@ -507,7 +508,7 @@ class RectifiedPair:
         """
     @property
     def num_shown(self) -> int:
-        """Number of pixels of the first picture that its photo fills."""
+        """Number of pixels of the first rectified photo with image content."""
     def __eq__(self, other: object, /) -> bool: ...
     def disparity(
         self,
@@ -515,15 +516,15 @@ class RectifiedPair:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> NDArray[np.float32]:
-        """Disparities of the first picture, along the columns if the rig is vertical.
+        """Computes disparities of the first rectified photo, along the columns if the rig is vertical.
 
         Parameters
         ----------
         matching : StereoSgm, StereoBm or callable
             ``matching(left, right)`` returns the disparities of two uint8 gray images whose matches
-            share a row, float of shape (h, w), NaN where unknown.
+            share a row: float of shape (h, w), NaN where unknown.
         progress : callable, optional
-            Called with the stage and the completed share, for a matcher of this module.
+            Called with the stage and the completed fraction, for a matcher of this module.
 
         Returns
         -------
@@ -533,7 +534,8 @@ class RectifiedPair:
         Raises
         ------
         ValueError
-            Option of the matcher out of range, or disparities of another size than the images.
+            If an option of the matcher is out of range, or the disparities differ in size from the
+            images.
         """
     def filled(
         self,
@@ -541,14 +543,14 @@ class RectifiedPair:
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> NDArray[np.float32]:
-        """Disparities of every pixel that the first photo fills, as `fill_gaps`.
+        """Fills the disparities of all pixels with image content, like `fill_gaps`.
 
         Parameters
         ----------
         disparity : array_like of float, shape (h, w)
             Pixels; NaN where unknown.
         progress : callable, optional
-            Called with the stage and the completed share.
+            Called with the stage and the completed fraction.
 
         Returns
         -------
@@ -558,7 +560,7 @@ class RectifiedPair:
 
 @final
 class UncalibratedRectification:
-    """Homographies that put matches into the same row, or column.
+    """Homographies that move matches into the same row, or column.
 
     Parameters
     ----------
@@ -567,9 +569,9 @@ class UncalibratedRectification:
     is_vertical
         Whether matches share a column instead of a row.
     disparity_range_px
-        Smallest and largest disparity among the matches, pixels.
+        Minimum and maximum disparity of the matches, pixels.
     outlines
-        Smallest rectangles around the rectified photos, a pair.
+        Bounding rectangles of the rectified photos, a pair.
     """
     def __new__(
         cls,
@@ -586,10 +588,10 @@ class UncalibratedRectification:
         """Whether matches share a column instead of a row."""
     @property
     def disparity_range_px(self) -> tuple[float, float]:
-        """Smallest and largest disparity among the matches, pixels."""
+        """Minimum and maximum disparity of the matches, pixels."""
     @property
     def outlines(self) -> tuple[PixelRect, PixelRect]:
-        """Smallest rectangles around the rectified photos, a pair."""
+        """Bounding rectangles of the rectified photos, a pair."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -599,17 +601,17 @@ def rectify_calibrated(
     cam2_from_cam1: RigidTransform,
     **options: Unpack[option_types.RectifyOptions],
 ) -> Rectification:
-    """Rectification of two calibrated cameras.
+    """Rectifies two calibrated cameras.
 
     Parameters
     ----------
     camera1, camera2 : Camera
-        Cameras of the first (left) and second (right) photo, of the same size.
+        Cameras of the first (left) and second (right) photo, with equal image sizes.
     cam2_from_cam1 : RigidTransform
         Translation in meters.
     **options : RectifyOptions
         ``alpha=0.0``: from 0, only valid pixels, to 1, all pixels of the photos; ``size=(width,
-        height)`` of the results, pixels; ``zero_disparity_at_infinity=True``.
+        height)`` of the rectified images, pixels; ``zero_disparity_at_infinity=True``.
 
     Returns
     -------
@@ -618,10 +620,11 @@ def rectify_calibrated(
     Raises
     ------
     epipole.DegenerateError
-        Cameras at the same place, a baseline more than 60° off the image plane, a photo that looks
-        along the baseline, or a lens model that folds less than half-way to the border.
+        If the cameras are at the same position, the baseline is more than 60° off the image plane,
+        a camera looks along the baseline, or the lens model folds less than halfway to the border.
     ValueError
-        Cameras of different image size, ``alpha`` outside [0, 1], or a side of less than 2 pixels.
+        If the cameras differ in image size, ``alpha`` is outside [0, 1], or a side is shorter than
+        2 pixels.
     """
 def q_from_rig(
     focal_px: float,
@@ -629,14 +632,14 @@ def q_from_rig(
     cu_px: float,
     cv_px: float,
 ) -> NDArray[np.float64]:
-    """Q of a rectified pair with common focal length and principal point.
+    """Computes Q of a rectified pair with common focal length and principal point.
 
     Parameters
     ----------
     focal_px : float
-        Pixels, > 0.
+        Focal length, pixels, > 0.
     baseline_m : float
-        Meters, > 0.
+        Distance between the cameras, meters, > 0.
     cu_px, cv_px : float
         Principal point, pixels.
 
@@ -648,7 +651,7 @@ def q_from_rig(
     Raises
     ------
     ValueError
-        Focal length or baseline not above 0.
+        If the focal length or baseline is not above 0.
     """
 def rectify_uncalibrated(
     fundamental: ArrayLike,
@@ -657,7 +660,7 @@ def rectify_uncalibrated(
     width: int,
     height: int,
 ) -> UncalibratedRectification:
-    """Rectification from a fundamental matrix and matches (Hartley).
+    """Rectifies a pair from its fundamental matrix and matches (Hartley).
 
     Parameters
     ----------
@@ -674,11 +677,12 @@ def rectify_uncalibrated(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 3 matches.
+        If there are fewer than 3 matches.
     epipole.DegenerateError
-        Epipole in or near its photo, matrix of rank 1 or 0, or all matches on one line.
+        If an epipole is in or near its photo, the matrix has rank 1 or 0, or all matches are on a
+        line.
     ValueError
-        Side of less than 2 pixels.
+        If a side is shorter than 2 pixels.
     """
 def remove_speckles(
     disparity: ArrayLike,
@@ -687,18 +691,18 @@ def remove_speckles(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Disparities without small connected sets.
+    """Removes small connected sets of disparities.
 
     Parameters
     ----------
     disparity : array_like of float, shape (H, W)
         Pixels; NaN where unknown.
     min_size : int
-        Sets of fewer pixels are removed.
+        Sets with fewer pixels are removed.
     range_px : float
-        Neighbors are connected if they differ by at most this, pixels, >= 0.
+        Neighbors are connected if their disparities differ by at most this, pixels, >= 0.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -707,7 +711,7 @@ def remove_speckles(
     Raises
     ------
     ValueError
-        ``range_px`` below 0.
+        If ``range_px`` is below 0.
     """
 def fill_gaps(
     disparity: ArrayLike,
@@ -715,16 +719,16 @@ def fill_gaps(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> NDArray[np.float32]:
-    """Disparities of every pixel: gaps take those of the background beside them.
+    """Fills all gaps with the disparity of the background beside them.
 
     Parameters
     ----------
     disparity : array_like of float, shape (H, W)
         Pixels; NaN where unknown.
     left : array_like, shape (H, W)
-        Gray image that the disparities belong to, uint8 or float in [0, 1].
+        Gray image of the disparities, uint8 or float in [0, 1].
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -736,16 +740,16 @@ def depth_from_disparity(
     baseline_m: float,
     disparity_px: float | ArrayLike,
 ) -> Any:
-    """Depth of a point seen by a rectified pair, ``focal_px * baseline_m / disparity_px``.
+    """Computes the depth of points in a rectified pair, ``focal_px * baseline_m / disparity_px``.
 
     Parameters
     ----------
     focal_px : float
         Focal length of both cameras, pixels, > 0.
     baseline_m : float
-        Distance of the cameras, meters, > 0.
+        Distance between the cameras, meters, > 0.
     disparity_px : float or array_like, shape (N,)
-        ``u_left - u_right``, pixels; `depth_image` takes images.
+        ``u_left - u_right``, pixels; see `depth_image` for images.
 
     Returns
     -------
@@ -755,9 +759,9 @@ def depth_from_disparity(
     Raises
     ------
     epipole.DegenerateError
-        Single disparity not above 0.
+        If a single disparity is given and is not above 0.
     ValueError
-        Focal length or baseline not above 0.
+        If the focal length or baseline is not above 0.
 
     Examples
     --------
@@ -770,18 +774,18 @@ def depth_interval(
     disparity_px: float,
     error_px: float,
 ) -> DepthInterval:
-    """Depths between ``f * B / (d + error_px)`` and ``f * B / (d - error_px)``.
+    """Computes the depths between ``f * B / (d + error_px)`` and ``f * B / (d - error_px)``.
 
     Parameters
     ----------
     focal_px : float
         Focal length of both cameras, pixels, > 0.
     baseline_m : float
-        Distance of the cameras, meters, > 0.
+        Distance between the cameras, meters, > 0.
     disparity_px : float
         Pixels.
     error_px : float
-        Largest error of the disparity, pixels, >= 0.
+        Maximum error of the disparity, pixels, >= 0.
 
     Returns
     -------
@@ -790,16 +794,16 @@ def depth_interval(
     Raises
     ------
     epipole.DegenerateError
-        No possible depth, as ``disparity_px + error_px <= 0``.
+        If no depth is possible, because ``disparity_px + error_px <= 0``.
     ValueError
-        Focal length or baseline not above 0, or ``error_px`` below 0.
+        If the focal length or baseline is not above 0, or ``error_px`` is below 0.
     """
 def depth_image(
     disparity: ArrayLike,
     focal_px: float,
     baseline_m: float,
 ) -> NDArray[np.float32]:
-    """Depth of every pixel, ``focal_px * baseline_m / disparity``.
+    """Computes the depth of every pixel, ``focal_px * baseline_m / disparity``.
 
     Parameters
     ----------
@@ -808,7 +812,7 @@ def depth_image(
     focal_px : float
         Focal length of both cameras, pixels, > 0.
     baseline_m : float
-        Distance of the cameras, meters, > 0.
+        Distance between the cameras, meters, > 0.
 
     Returns
     -------
@@ -818,26 +822,26 @@ def depth_image(
     Raises
     ------
     ValueError
-        Focal length or baseline not above 0.
+        If the focal length or baseline is not above 0.
     """
 def point_cloud(
     disparity: ArrayLike,
     q: ArrayLike,
     colors: ArrayLike | None = None,
 ) -> PointCloud:
-    """Points of a rectified pair, ``(X, Y, Z, W) = Q @ (u, v, d, 1)``, in the first camera's frame.
+    """Computes points in the first camera's frame, ``(X, Y, Z, W) = Q @ (u, v, d, 1)``.
 
     Parameters
     ----------
     disparity : array_like of float, shape (H, W)
         Pixels; NaN where unknown.
     q : array_like, shape (4, 4)
-        `Rectification.q`, or that of `q_from_rig`.
+        `Rectification.q`, or the result of `q_from_rig`.
     colors : array_like, shape (H, W, 3), optional
         Rectified first image, uint8.
 
     Returns
     -------
     PointCloud
-        Without pixels of unknown disparity, points at infinity and points behind the camera.
+        Omits pixels without disparity, points at infinity and points behind the camera.
     """

@@ -21,20 +21,20 @@ __all__ = [
 
 @final
 class Overlap:
-    """Two photos that overlap, and the matches that agree.
+    """Two overlapping photos and their inliers.
 
     Parameters
     ----------
     images : tuple of int
         Indices of the photos.
     pixels1, pixels2 : array_like, shape (N, 2)
-        Matches that agree.
+        Inlier matches.
     homography : array_like, shape (3, 3)
-        From the first photo to the second, up to scale.
+        From the first photo to the second, at any scale.
     num_matches : int
-        Number of matches, with those that do not agree.
+        Number of matches, including outliers.
     has_parallax : bool
-        Whether no homography fits all matches, since the camera moved.
+        Whether the matches show parallax: the camera moved, and no homography fits all of them.
     """
     def __new__(
         cls,
@@ -50,19 +50,19 @@ class Overlap:
         """Indices of the photos."""
     @property
     def pixels1(self) -> NDArray[np.float64]:
-        """Pixels of the matches that agree in the first photo, shape (N, 2)."""
+        """Pixels of the inliers in the first photo, shape (N, 2)."""
     @property
     def pixels2(self) -> NDArray[np.float64]:
-        """Pixels of the matches that agree in the second photo, shape (N, 2)."""
+        """Pixels of the inliers in the second photo, shape (N, 2)."""
     @property
     def homography(self) -> NDArray[np.float64]:
         """H from the first photo to the second, shape (3, 3)."""
     @property
     def num_matches(self) -> int:
-        """Number of matches, with those that do not agree."""
+        """Number of matches, including outliers."""
     @property
     def has_parallax(self) -> bool:
-        """Whether the matches show depth: the camera moved."""
+        """Whether the matches show parallax, because the camera moved."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -73,13 +73,13 @@ class Panorama:
     Parameters
     ----------
     pixel_from_direction : list of array_like or None
-        For each photo M, shape (3, 3), which maps a direction to a homogeneous pixel.
+        Matrix M of each photo, shape (3, 3), which maps a direction to a homogeneous pixel.
     rotations : list of array_like or None
-        Rotation of each camera that turned: ``d_in_cam = R @ d``.
+        Rotation of each camera, for rotating cameras: ``d_in_cam = R @ d``.
     scale_px : float
         Pixels per unit of a direction at z = 1.
     focal_factor : float, optional
-        Factor of all focal lengths, if one was found.
+        Common factor of the focal lengths, if it was estimated.
     """
     def __new__(
         cls,
@@ -90,18 +90,16 @@ class Panorama:
     ) -> Panorama: ...
     @property
     def pixel_from_direction(self) -> list[NDArray[np.float64] | None]:
-        """For each photo M, shape (3, 3), which maps a direction to a homogeneous pixel, or None for
-        photos that overlap no other.
-        """
+        """Matrix of each photo, direction to homogeneous pixel, shape (3, 3); None without overlap."""
     @property
     def rotations(self) -> list[NDArray[np.float64] | None]:
-        """Rotation of each camera that turned, shape (3, 3), or None."""
+        """Rotation of each camera, shape (3, 3), for rotating cameras, or None."""
     @property
     def scale_px(self) -> float:
-        """Pixels per unit of a direction at z = 1: the focal length, for cameras that turned."""
+        """Pixels per unit of a direction at z = 1: the focal length, for rotating cameras."""
     @property
     def focal_factor(self) -> float | None:
-        """Factor of all focal lengths, or None."""
+        """Common factor of the focal lengths, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -113,30 +111,30 @@ def find_overlap(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.OverlapOptions],
 ) -> Overlap | None:
-    """Homography that the matches of two photos agree on, and whether there is parallax.
+    """Finds the homography on which the matches of two photos agree, and detects parallax.
 
     Parameters
     ----------
     images : tuple of int
         Indices of the photos.
     pixels1, pixels2 : array_like, shape (N, 2)
-        Matches, wrong ones among them.
+        Matches, including outliers.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : OverlapOptions
         ``ransac``, a dict such as ``{"max_error_px": 3.0}``; ``min_num_inliers``.
 
     Returns
     -------
     Overlap or None
-        None if no more matches agree than wrong ones might.
+        None if no more matches agree than wrong ones might by chance.
 
     Raises
     ------
     epipole.DegenerateError
-        All pixels of an image on one line.
+        If all pixels of an image are on a line.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` of ``ransac`` is out of range.
 
     Examples
     --------
@@ -153,7 +151,7 @@ def estimate_panorama(
     *,
     progress: Callable[[str, float], object] | None = None,
 ) -> Panorama:
-    """Rotations of photos taken from one place, with one factor of their focal lengths.
+    """Estimates the rotations of photos from one position, with a common focal length factor.
 
     Parameters
     ----------
@@ -161,9 +159,9 @@ def estimate_panorama(
         K of each photo; focal lengths are known or guessed.
     overlaps : list of Overlap
     find_focal : bool, optional
-        Whether to find one factor of all focal lengths, from 1/4 to 4.
+        Whether to estimate a common factor of all focal lengths, from 1/4 to 4.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
 
     Returns
     -------
@@ -172,12 +170,12 @@ def estimate_panorama(
     Raises
     ------
     epipole.DegenerateError
-        No overlaps, or one whose matches meet in a point.
+        If there are no overlaps, or the matches of an overlap coincide.
     ValueError
-        Overlap of a photo that does not exist.
+        If an overlap refers to a missing photo.
     """
 def chain_homographies(num_images: int, overlaps: Sequence[Overlap]) -> Panorama:
-    """Places of photos of one plane, by homographies from one to the next.
+    """Aligns photos of a plane by homographies from one to the next.
 
     Parameters
     ----------
@@ -188,14 +186,14 @@ def chain_homographies(num_images: int, overlaps: Sequence[Overlap]) -> Panorama
     Returns
     -------
     Panorama
-        To be rendered with ``surface="plane"``.
+        To render with ``surface="plane"``.
 
     Raises
     ------
     epipole.DegenerateError
-        No overlaps.
+        If there are no overlaps.
     ValueError
-        Overlap of a photo that does not exist.
+        If an overlap refers to a missing photo.
     """
 def render_panorama(
     panorama: Panorama,
@@ -204,7 +202,7 @@ def render_panorama(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RenderOptions],
 ) -> NDArray[np.uint8]:
-    """Image of all photos of a panorama on a surface; black where there is none.
+    """Renders all photos of a panorama on a surface; black where there is none.
 
     Parameters
     ----------
@@ -212,10 +210,10 @@ def render_panorama(
     photos : list of array_like of uint8, shape (H, W, 3)
         In the order of the panorama.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RenderOptions
         ``surface``, ``"cylinder"``, ``"plane"`` or ``"sphere"``; ``blend``, ``"bands"``,
-        ``"feather"`` or ``"seams"``; ``gains``, whether exposures are made alike; ``max_pixels``.
+        ``"feather"`` or ``"seams"``; ``gains``, whether to compensate exposure; ``max_pixels``.
 
     Returns
     -------
@@ -224,5 +222,5 @@ def render_panorama(
     Raises
     ------
     epipole.DegenerateError
-        Photo that looks beyond the surface.
+        If a photo extends beyond the surface.
     """

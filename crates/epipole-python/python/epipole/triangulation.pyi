@@ -25,7 +25,7 @@ __all__ = [
 
 @final
 class NviewPoint:
-    """Point of several views.
+    """Point triangulated from several views.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def triangulate_dlt(
     pixel1: ArrayLike,
     pixel2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Points of two views by linear least squares (DLT).
+    """Triangulates points of two views by linear least squares (DLT).
 
     Parameters
     ----------
@@ -67,15 +67,15 @@ def triangulate_dlt(
     Raises
     ------
     epipole.DegenerateError
-        Single match of parallel rays, of a point not in front of both cameras, of cameras at the
-        same place, or of a matrix of rank below 3.
+        If a single match is given and its rays are parallel, its point is not in front of both
+        cameras, the cameras are at the same position, or a matrix has rank below 3.
     """
 def triangulate_midpoint(
     cam2_from_cam1: RigidTransform,
     ray1: ArrayLike,
     ray2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Points of two views: where rays come nearest to each other.
+    """Triangulates points of two views: the midpoints where rays are nearest to each other.
 
     Parameters
     ----------
@@ -91,9 +91,10 @@ def triangulate_midpoint(
     Raises
     ------
     epipole.DegenerateError
-        Single pair of parallel or diverging rays, or cameras at the same place.
+        If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+        same position.
     ValueError
-        Single pair with a ray of length 0.
+        If a single pair is given and a ray has length 0.
 
     Examples
     --------
@@ -107,7 +108,7 @@ def triangulate_weighted_midpoint(
     ray1: ArrayLike,
     ray2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Points of two views: midpoints of rays, weighted by inverse depth.
+    """Triangulates points of two views: midpoints of rays, weighted by inverse depth.
 
     Parameters
     ----------
@@ -118,22 +119,22 @@ def triangulate_weighted_midpoint(
     Returns
     -------
     ndarray, shape (3,) or (N, 3)
-        As `triangulate_midpoint`.
+        Same as for `triangulate_midpoint`.
 
     Raises
     ------
     epipole.DegenerateError
-        Single pair of parallel or diverging rays, or cameras at the same place; among several, a
-        row of NaN.
+        If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+        same position; for several pairs, its row is NaN.
     ValueError
-        Single pair with a ray of length 0.
+        If a single pair is given and a ray has length 0.
     """
 def triangulate_angular(
     cam2_from_cam1: RigidTransform,
     ray1: ArrayLike,
     ray2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Points of two views with the least sum of angular errors.
+    """Triangulates points of two views with the smallest sum of angular errors.
 
     Parameters
     ----------
@@ -144,15 +145,15 @@ def triangulate_angular(
     Returns
     -------
     ndarray, shape (3,) or (N, 3)
-        As `triangulate_midpoint`.
+        Same as for `triangulate_midpoint`.
 
     Raises
     ------
     epipole.DegenerateError
-        Single pair of parallel or diverging rays, or cameras at the same place; among several, a
-        row of NaN.
+        If a single pair is given and its rays are parallel or diverge, or the cameras are at the
+        same position; for several pairs, its row is NaN.
     ValueError
-        Single pair with a ray of length 0.
+        If a single pair is given and a ray has length 0.
     """
 def triangulate_optimal(
     cam1: PosedCamera,
@@ -160,7 +161,7 @@ def triangulate_optimal(
     pixel1: ArrayLike,
     pixel2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Points of two views with the least reprojection error.
+    """Triangulates points of two views with the smallest reprojection error.
 
     Parameters
     ----------
@@ -175,15 +176,15 @@ def triangulate_optimal(
     Raises
     ------
     epipole.DegenerateError
-        Single match of parallel or diverging rays, of an epipole, of a pixel without a ray, or of
-        cameras at the same place.
+        If a single match is given and its rays are parallel or diverge, it is an epipole, a pixel
+        has no ray, or the cameras are at the same position.
     """
 def correct_matches(
     fundamental: ArrayLike,
     pixel1: ArrayLike,
     pixel2: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Nearest matches that satisfy the epipolar constraint exactly.
+    """Computes the nearest matches that satisfy the epipolar constraint exactly.
 
     Parameters
     ----------
@@ -198,21 +199,21 @@ def correct_matches(
     Raises
     ------
     epipole.DegenerateError
-        Single match of the two epipoles, one whose lines are infinitely far away, or a matrix of
-        zeros.
+        If a single match is given and it consists of the two epipoles or its lines are at infinity,
+        or if the matrix is zero.
     """
 def triangulate_nview_dlt(
     cameras: Sequence[PosedCamera],
     pixels: ArrayLike,
 ) -> NDArray[np.float64]:
-    """Point of several views by linear least squares.
+    """Triangulates a point of several views by linear least squares.
 
     Parameters
     ----------
     cameras : sequence of PosedCamera
         At least 2.
     pixels : array_like, shape (N, 2)
-        Pixel of each camera.
+        Pixel in each camera.
 
     Returns
     -------
@@ -221,26 +222,26 @@ def triangulate_nview_dlt(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 views.
+        If there are fewer than 2 views.
     epipole.DegenerateError
-        Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
-        without a ray.
+        If the rays are parallel, the cameras are at the same position, a camera does not see the
+        point, or a pixel has no ray.
     """
 def triangulate_nview(
     cameras: Sequence[PosedCamera],
     pixels: ArrayLike,
     loss: str | Mapping[str, Any] | None = None,
 ) -> NviewPoint:
-    """Point of several views with the least reprojection error.
+    """Triangulates a point of several views with the smallest reprojection error.
 
     Parameters
     ----------
     cameras : sequence of PosedCamera
         At least 2.
     pixels : array_like, shape (N, 2)
-        Pixel of each camera.
+        Pixel in each camera.
     loss : str or dict, optional
-        ``"trivial"``, or ``{"huber": {"width": 1.0}}``, ``"cauchy"``, ``"truncated"`` likewise.
+        ``"trivial"``, or ``{"huber": {"width": 1.0}}``; ``"cauchy"`` and ``"truncated"`` likewise.
 
     Returns
     -------
@@ -249,19 +250,19 @@ def triangulate_nview(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 views.
+        If there are fewer than 2 views.
     epipole.DegenerateError
-        Parallel rays, cameras at the same place, a camera that does not see the point, or a pixel
-        without a ray.
+        If the rays are parallel, the cameras are at the same position, a camera does not see the
+        point, or a pixel has no ray.
     ValueError
-        Loss width not above 0.
+        If the loss width is not above 0.
     """
 def triangulation_angle_rad(
     center1_in_world: ArrayLike,
     center2_in_world: ArrayLike,
     point_in_world: ArrayLike,
 ) -> Any:
-    """Angle at which the rays to a point meet.
+    """Computes the angle between the rays that meet in a point.
 
     Parameters
     ----------
@@ -279,7 +280,7 @@ def point_covariance(
     point_in_world: ArrayLike,
     sigma_px: float,
 ) -> NDArray[np.float64]:
-    """Covariance of a triangulated point, to first order.
+    """Computes the covariance of a triangulated point, to first order.
 
     Parameters
     ----------
@@ -295,7 +296,7 @@ def point_covariance(
     Raises
     ------
     epipole.DegenerateError
-        Camera that does not see the point, or views that leave it free to move along a ray.
+        If a camera does not see the point, or the views do not constrain it along a ray.
     ValueError
-        ``sigma_px`` not above 0.
+        If ``sigma_px`` is not above 0.
     """

@@ -41,31 +41,31 @@ class TwoViewReport:
     model
         Chosen matrix, shape (3, 3).
     is_of_rays
-        Whether model and homography are of rays, not of pixels: lenses with distortion.
+        Whether `model` and `homography` apply to rays, not pixels: lenses with distortion.
     fundamental
         F, shape (3, 3), or None.
     homography
         H, shape (3, 3), or None.
     cam2_from_cam1
-        Motion of calibrated views, translation of length 1, or 0 for a rotation; or None.
+        Motion of calibrated views, or None. Its translation has length 1, or 0 for a rotation.
     other_cam2_from_cam1
-        Second motion that explains a plane as well, or None.
+        Second motion that explains a plane equally well, or None.
     inliers
         Whether each match is an inlier, boolean array of shape (N,).
     num_inliers
         Number of inliers.
     num_left_out
-        Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels.
+        Number of matches ignored because a coordinate is infinite or beyond 1e9 pixels.
     max_error_px
         Threshold of F and E, pixels.
     iterations
-        Samples drawn, over all models tried.
+        Number of samples drawn for all models tried.
     required_iterations
         Number of samples required for the model.
     stop
-        Why the search ended: "confident", "exhausted" or "interrupted".
+        Reason the search ended: "confident", "exhausted" or "interrupted".
     median_triangulation_angle_rad
-        Median angle at which rays of inliers meet, radians, or None.
+        Median triangulation angle of the inliers, radians, or None.
     """
     def __new__(
         cls,
@@ -97,7 +97,7 @@ class TwoViewReport:
         """Chosen matrix, shape (3, 3)."""
     @property
     def is_of_rays(self) -> bool:
-        """Whether model and homography are of rays, not of pixels: lenses with distortion."""
+        """Whether `model` and `homography` apply to rays, not pixels: lenses with distortion."""
     @property
     def fundamental(self) -> NDArray[np.float64] | None:
         """F, shape (3, 3), or None."""
@@ -106,10 +106,10 @@ class TwoViewReport:
         """H, shape (3, 3), or None."""
     @property
     def cam2_from_cam1(self) -> RigidTransform | None:
-        """Motion of calibrated views, translation of length 1, or 0 for a rotation; or None."""
+        """Motion of calibrated views, or None. Its translation has length 1, or 0 for a rotation."""
     @property
     def other_cam2_from_cam1(self) -> RigidTransform | None:
-        """Second motion that explains a plane as well, or None."""
+        """Second motion that explains a plane equally well, or None."""
     @property
     def inliers(self) -> NDArray[np.bool_]:
         """Whether each match is an inlier, boolean array of shape (N,)."""
@@ -118,22 +118,22 @@ class TwoViewReport:
         """Number of inliers."""
     @property
     def num_left_out(self) -> int:
-        """Number of matches left out: a coordinate that is infinite or beyond 1e9 pixels."""
+        """Number of matches ignored because a coordinate is infinite or beyond 1e9 pixels."""
     @property
     def max_error_px(self) -> float:
         """Threshold of F and E, pixels."""
     @property
     def iterations(self) -> int:
-        """Samples drawn, over all models tried."""
+        """Number of samples drawn for all models tried."""
     @property
     def required_iterations(self) -> int:
         """Number of samples required for the model."""
     @property
     def stop(self) -> str:
-        """Why the search ended: "confident", "exhausted" or "interrupted"."""
+        """Reason the search ended: "confident", "exhausted" or "interrupted"."""
     @property
     def median_triangulation_angle_rad(self) -> float | None:
-        """Median angle at which rays of inliers meet, radians, or None."""
+        """Median triangulation angle of the inliers, radians, or None."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -170,18 +170,18 @@ class ExplainingTurn:
 
 @final
 class TurnAndFocal:
-    """Rotation and change of the focal length that explain nearly all inliers.
+    """Rotation and focal length change that explain nearly all inliers.
 
     Parameters
     ----------
     cam2_from_cam1
         Rotation, with a translation of 0.
     focal_factor
-        Factor by which both focal lengths differ from those given.
+        Ratio of the actual to the given focal lengths, for both cameras.
     num_explained
-        Number of different matches that it explains.
+        Number of unique matches that it explains.
     num_inliers
-        Number of different matches.
+        Number of unique matches.
     """
     def __new__(
         cls,
@@ -195,26 +195,26 @@ class TurnAndFocal:
         """Rotation, with a translation of 0."""
     @property
     def focal_factor(self) -> float:
-        """Factor by which both focal lengths differ from those given."""
+        """Ratio of the actual to the given focal lengths, for both cameras."""
     @property
     def num_explained(self) -> int:
-        """Number of different matches that it explains."""
+        """Number of unique matches that it explains."""
     @property
     def num_inliers(self) -> int:
-        """Number of different matches."""
+        """Number of unique matches."""
     def __eq__(self, other: object, /) -> bool: ...
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
 class Degeneracy:
-    """Why inliers do not determine F.
+    """Reason the inliers do not determine F.
 
     Parameters
     ----------
     kind
         "unmoved" or "homography".
     num_explained
-        Number of inliers that did not move, or that a homography explains.
+        Number of inliers that did not move or that a homography explains.
     num_inliers
         Number of inliers.
     """
@@ -224,7 +224,7 @@ class Degeneracy:
         """"unmoved" or "homography"."""
     @property
     def num_explained(self) -> int:
-        """Number of inliers that did not move, or that a homography explains."""
+        """Number of inliers that did not move or that a homography explains."""
     @property
     def num_inliers(self) -> int:
         """Number of inliers."""
@@ -238,17 +238,17 @@ def estimate_two_view(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> TwoViewReport:
-    """Geometry of two views without calibration: F or H.
+    """Estimates the geometry of two uncalibrated views: F or H.
 
     Parameters
     ----------
     pixels1, pixels2 : array_like, shape (N, 2)
         Matches.
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : TwoViewOptions
         ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
-        ``ransac``, a dict of the options of RANSAC.
+        ``ransac``, a dict of RANSAC options.
 
     Returns
     -------
@@ -257,13 +257,13 @@ def estimate_two_view(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches.
+        If there are fewer than 4 different matches.
     epipole.DegenerateError
-        All pixels of an image on one line.
+        If all pixels of an image are on a line.
     epipole.NoConsensusError
-        No model with as many inliers as its sample has.
+        If every model has fewer inliers than its sample has matches.
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
     """
 def estimate_two_view_calibrated(
     pixels1: ArrayLike,
@@ -274,7 +274,7 @@ def estimate_two_view_calibrated(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> TwoViewReport:
-    """Geometry of two calibrated views: E, H or a rotation, and the motion.
+    """Estimates the geometry of two calibrated views: E, H or a rotation, and the motion.
 
     Parameters
     ----------
@@ -282,7 +282,7 @@ def estimate_two_view_calibrated(
         Matches.
     camera1, camera2 : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : TwoViewOptions
 
     Returns
@@ -292,14 +292,15 @@ def estimate_two_view_calibrated(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 4 different matches that no rotation explains, or fewer than 5 through a lens
-        with distortion.
+        If fewer than 4 different matches are given that no rotation explains, or fewer than 5
+        through a lens with distortion.
     epipole.DegenerateError
-        All pixels of an image of a pinhole camera on one line, unless a rotation explains them.
+        If all pixels of an image of a pinhole camera are on a line, unless a rotation explains
+        them.
     epipole.NoConsensusError
-        No model with as many inliers as its sample has.
+        If every model has fewer inliers than its sample has matches.
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
     """
 def estimate_rotation(
     pixels1: ArrayLike,
@@ -310,7 +311,7 @@ def estimate_rotation(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.RansacOptions],
 ) -> RansacReport[NDArray[np.float64]]:
-    """Rotation between two calibrated views from the same place, by RANSAC.
+    """Estimates the rotation between two calibrated views from the same position, by RANSAC.
 
     Parameters
     ----------
@@ -318,9 +319,9 @@ def estimate_rotation(
         Matches.
     camera1, camera2 : Camera
     progress : callable, optional
-        Called with the stage and the completed share.
+        Called with the stage and the completed fraction.
     **options : RansacOptions
-        Such as ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+        For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
 
     Returns
     -------
@@ -330,11 +331,11 @@ def estimate_rotation(
     Raises
     ------
     epipole.TooFewError
-        Fewer than 2 different matches.
+        If there are fewer than 2 different matches.
     epipole.NoConsensusError
-        No rotation with 2 inliers.
+        If no rotation has 2 inliers.
     ValueError
-        ``max_error_px``, ``confidence`` or ``max_iterations`` out of range.
+        If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
     """
 def find_degeneracy(
     pixels1: ArrayLike,
@@ -342,7 +343,7 @@ def find_degeneracy(
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> Degeneracy | None:
-    """Why the inliers of F do not determine it: nothing moved, or a homography explains them.
+    """Checks whether the inliers determine F: not if nothing moved or a homography explains them.
 
     Parameters
     ----------
@@ -357,7 +358,7 @@ def find_degeneracy(
     Raises
     ------
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
     """
 def find_unmoved(
     pixels1: ArrayLike,
@@ -365,7 +366,7 @@ def find_unmoved(
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> Degeneracy | None:
-    """Whether nearly all inliers are at the same pixel in both images.
+    """Checks whether nearly all inliers are at the same pixel in both images.
 
     Parameters
     ----------
@@ -380,7 +381,7 @@ def find_unmoved(
     Raises
     ------
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
 
     Examples
     --------
@@ -396,7 +397,7 @@ def find_explaining_turn(
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> ExplainingTurn | None:
-    """Rotation that explains nearly all inliers of calibrated views, if there is one.
+    """Finds a rotation that explains nearly all inliers of calibrated views.
 
     Parameters
     ----------
@@ -412,7 +413,7 @@ def find_explaining_turn(
     Raises
     ------
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
     """
 def find_turn_and_focal(
     pixels1: ArrayLike,
@@ -422,7 +423,7 @@ def find_turn_and_focal(
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
 ) -> TurnAndFocal | None:
-    """Rotation and change of the focal length that explain nearly all inliers, if there are any.
+    """Finds a rotation and a focal length change that explain nearly all inliers.
 
     Parameters
     ----------
@@ -438,5 +439,5 @@ def find_turn_and_focal(
     Raises
     ------
     ValueError
-        ``ransac``, ``max_homography_share`` or ``min_essential_share`` out of range.
+        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
     """
