@@ -8,7 +8,7 @@ use crate::camera::Intrinsics;
 use crate::optim::{FixedProblem, LmOptions, NormalEquations, RobustLoss, Subset, minimize_fixed};
 use nalgebra::{Point2, Point3, SMatrix, SVector, Vector2};
 
-/// Like [`LocalProblem`], but refines the focal length instead of using that of the intrinsics.
+/// Like `LocalProblem`, but refines the focal length instead of using that of the intrinsics.
 struct FocalProblem<'a> {
     problem: &'a PoseProblem<'a, PinholePoints<'a>>,
     pivot: Pivot,

@@ -38,8 +38,9 @@ const FIRST_SIDE: u32 = 1300;
 /// [`Error::OutOfRange`](crate::Error::OutOfRange) for gray values far from [0, 1].
 ///
 /// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing
-/// using circular boundaries"; refined by [`refine_corners`], then by fitting two crossing blurred
-/// edges to the gray values.
+/// using circular boundaries"; refined by
+/// [`refine_corners`](crate::feature::refine_corners), then by fitting two crossing blurred edges to
+/// the gray values.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

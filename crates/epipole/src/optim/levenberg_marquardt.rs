@@ -152,7 +152,7 @@ pub struct LmReport {
     /// Reason why the solver ended.
     pub termination: Termination,
     /// The initial state and every step tried, in order; empty from
-    /// [`minimize_fixed`](super::minimize_fixed), which does not allocate.
+    /// `minimize_fixed`, which does not allocate.
     pub history: Vec<Iteration>,
 }
 

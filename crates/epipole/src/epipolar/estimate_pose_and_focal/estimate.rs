@@ -153,9 +153,10 @@ impl Estimator for FocalEstimator {
 /// less accurate.
 ///
 /// # Errors
-/// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`], [`Error::TooFewDistinct`] for fewer than
-/// 6 matches, [`Error::Degenerate`] if all pixels of an image are equal or on one line,
-/// [`Error::NotFinite`] for principal points that are not finite.
+/// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`](crate::Error::TooFew),
+/// [`Error::TooFewDistinct`](crate::Error::TooFewDistinct) for fewer than 6 matches,
+/// [`Error::Degenerate`](crate::Error::Degenerate) if all pixels of an image are equal or on one
+/// line, [`Error::NotFinite`](crate::Error::NotFinite) for principal points that are not finite.
 ///
 /// Source: as [`essential_6point`](crate::epipolar::essential_6point), the minimal solver.
 ///

@@ -88,8 +88,9 @@ impl<E: Estimator> Ransac<E> {
     /// Prepares a run and allocates all memory.
     ///
     /// # Errors
-    /// [`Error::TooFew`] or [`Error::TooFewDistinct`] for fewer data points than a sample has,
-    /// [`Error::OutOfRange`] for options outside their range.
+    /// [`Error::TooFew`](crate::Error::TooFew) or
+    /// [`Error::TooFewDistinct`](crate::Error::TooFewDistinct) for fewer data points than a sample
+    /// has, [`Error::OutOfRange`](crate::Error::OutOfRange) for options outside their range.
     pub fn new(estimator: E, options: RansacOptions) -> Result<Self> {
         options.check()?;
         let problem = estimator.problem();
