@@ -39,8 +39,8 @@ const FIRST_SIDE: u32 = 1300;
 ///
 /// Source: saddle points as in Bok, Ha & Kweon 2016, "Automated checkerboard detection and indexing
 /// using circular boundaries"; refined by
-/// [`refine_corners`](crate::feature::refine_corners), then by fitting two crossing blurred edges to
-/// the gray values.
+/// [`refine_corners`](crate::feature::refine_corners), then by fitting two crossing blurred edges
+/// to the gray values.
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {

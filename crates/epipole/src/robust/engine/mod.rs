@@ -246,8 +246,8 @@ impl<E: Estimator> Ransac<E> {
     /// [`StopReason::Interrupted`].
     ///
     /// # Errors
-    /// [`Error::NoConsensus`] if no model is supported by at least as many data points as a sample
-    /// has.
+    /// [`Error::NoConsensus`](crate::Error::NoConsensus) if no model is supported by at least as
+    /// many data points as a sample has.
     pub fn finish(mut self) -> Result<RansacReport<E::Model>> {
         self.conclude()
     }
