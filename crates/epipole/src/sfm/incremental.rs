@@ -76,8 +76,9 @@ pub struct SfmResult {
 /// bundle adjustment refines everything. Observations that fit badly are dropped, others added
 /// again. Images that cannot be registered start further components.
 ///
-/// A component with three known [`SfmImage::position`](crate::sfm::SfmImage::position)s that are not on one line is aligned with
-/// them at the end and refined once more; some positions may be wrong.
+/// A component with three known positions ([`SfmImage::position`](crate::sfm::SfmImage::position))
+/// that are not on one line is aligned with them at the end and refined once more; some positions
+/// may be wrong.
 ///
 /// * `monitor`: the stages are [`Stage::PairVerification`], then alternately
 ///   [`Stage::Registration`] and [`Stage::BundleAdjustment`]
