@@ -28,18 +28,10 @@ const ROUNDED: f64 = 1e-4;
 /// ```
 pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
     let text = decode(bytes)?;
-    let numbers = match (plain(text), keyed(text)) {
-        (Some(numbers), _) => numbers,
-        (None, Ok(numbers)) => numbers,
-        (None, Err(error)) => match of_rig(bytes) {
-            Some(q) => return q,
-            None => return Err(error),
-        },
+    let q = match (plain(text), keyed(text)) {
+        (Some(numbers), _) | (None, Ok(numbers)) => of_numbers(numbers)?,
+        (None, Err(error)) => of_rig(bytes).ok_or(error)??,
     };
-    let entries: [f64; 16] = (numbers.try_into()).map_err(|numbers: Vec<f64>| {
-        Error::malformed(format!("Q has {} numbers, not 16", numbers.len()))
-    })?;
-    let q = Matrix4::from_row_slice(&entries);
     if !q.iter().all(|entry| entry.is_finite()) {
         return Err(Error::malformed("Q has entries that are not finite"));
     }
@@ -50,6 +42,14 @@ pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
         )),
         false => Ok(q),
     }
+}
+
+/// Returns Q of sixteen numbers, row by row.
+fn of_numbers(numbers: Vec<f64>) -> Result<Matrix4<f64>> {
+    let entries: [f64; 16] = (numbers.try_into()).map_err(|numbers: Vec<f64>| {
+        Error::malformed(format!("Q has {} numbers, not 16", numbers.len()))
+    })?;
+    Ok(Matrix4::from_row_slice(&entries))
 }
 
 /// Returns the numbers of a text that has nothing else.
@@ -113,6 +113,14 @@ mod tests {
     use super::*;
 
     const NUMBERS: &str = "1, 0, 0, -319.5, 0, 1, 0, -239.5, 0, 0, 0, 700, 0, 0, 8.5, 0.25";
+
+    #[test]
+    fn a_rig_with_an_infinite_q_is_refused() {
+        let text = "cam0=[1000 0 -1e308; 0 1000 0; 0 0 1]\ncam1=[1000 0 1e308; 0 1000 0; 0 0 1]\n\
+            baseline=0.5\nwidth=640\nheight=480\n";
+        let error = read_q(text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("not finite"), "{error}");
+    }
 
     #[test]
     fn q_of_each_syntax() {
