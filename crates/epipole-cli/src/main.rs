@@ -85,10 +85,7 @@ fn main() -> ExitCode {
     let arguments = match config::with_file(&command, std::env::args_os().collect()) {
         Ok(arguments) => arguments,
         Err(failure) => {
-            print_failure(
-                &failure,
-                std::env::args().any(|argument| argument == "--json"),
-            );
+            print_failure(&failure, is_json_requested());
             return failure.exit_code();
         }
     };
@@ -159,7 +156,7 @@ fn dumped(
 
 /// Prints help, version or a usage error; under `--json` a usage error is JSON.
 fn wrong_usage(error: &clap::Error) -> ExitCode {
-    if error.use_stderr() && std::env::args().any(|argument| argument == "--json") {
+    if error.use_stderr() && is_json_requested() {
         let message = error.to_string();
         print_failure(
             &Failure::usage(message.trim_start_matches("error: ").trim()),
@@ -169,6 +166,11 @@ fn wrong_usage(error: &clap::Error) -> ExitCode {
         return ExitCode::FAILURE;
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// Returns whether `--json` is on the command line, even if the rest is malformed.
+fn is_json_requested() -> bool {
+    std::env::args().any(|argument| argument == "--json")
 }
 
 fn set_threads(threads: Option<u16>) -> Result<(), Failure> {

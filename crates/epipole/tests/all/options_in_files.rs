@@ -5,7 +5,7 @@ use epipole::feature::{
     FeatureOptions, GoodFeaturesOptions, MatchOptions, OrbOptions, RefineOptions, SiftOptions,
     StructureTensorOptions, TrackOptions,
 };
-use epipole::mvs::MvsOptions;
+use epipole::mvs::{MeshOptions, MvsOptions, TextureOptions};
 use epipole::optim::{LmOptions, RobustLoss};
 use epipole::robust::{LeastMedianOptions, RansacOptions};
 use epipole::sfm::{
@@ -39,6 +39,7 @@ fn every_kind_of_options_goes_through_a_file() {
     check::<LmOptions>();
     check::<LocalizeOptions>();
     check::<MarkerOptions>();
+    check::<MeshOptions>();
     check::<MvsOptions>();
     check::<MatchOptions>();
     check::<OdometryOptions>();
@@ -54,6 +55,7 @@ fn every_kind_of_options_goes_through_a_file() {
     check::<StereoBm>();
     check::<StereoSgm>();
     check::<StructureTensorOptions>();
+    check::<TextureOptions>();
     check::<TrackOptions>();
     check::<TwoViewOptions>();
     check::<TwoViewReconstructionOptions>();

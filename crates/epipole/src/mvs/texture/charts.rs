@@ -31,12 +31,12 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// Pixel of the photo at the first column and row within the padding.
+    /// Returns the pixel of the photo at the first column and row within the padding.
     fn origin(&self) -> Point2<f64> {
         self.bounds[0].map(f64::floor)
     }
 
-    /// Position of a pixel of the photo in the piece.
+    /// Returns the position of a pixel of the photo in the piece.
     pub(super) fn in_chart(&self, pixel: &Point2<f64>, scale: f64) -> Point2<f64> {
         let padding = f64::from(PADDING);
         (pixel - self.origin())
@@ -44,7 +44,7 @@ impl Chart {
             .into()
     }
 
-    /// Pixel of the photo at a position in the piece.
+    /// Returns the pixel of the photo at a position in the piece.
     pub(super) fn in_photo(&self, u: u32, v: u32, scale: f64) -> Point2<f64> {
         let offset = [u, v].map(|place| (f64::from(place) - f64::from(PADDING)) / scale);
         self.origin() + nalgebra::Vector2::from(offset)

@@ -110,8 +110,8 @@ fn absorb_small(candidates: &[Vec<Candidate>], across: &[[u32; 3]], labels: &mut
     }
 }
 
-/// Connected triangles with one view, in the order of their first triangles. Triangles without a
-/// view are left out.
+/// Returns connected triangles with one view, in the order of their first triangles. Triangles
+/// without a view are left out.
 pub(super) fn pieces(across: &[[u32; 3]], labels: &[Option<usize>]) -> Vec<Vec<usize>> {
     let mut sets = UnionFind::new(labels.len());
     for (index, others) in across.iter().enumerate() {

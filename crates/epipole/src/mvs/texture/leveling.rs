@@ -5,6 +5,7 @@ use super::super::views::MvsView;
 use super::adjacency::NONE;
 use super::charts::Chart;
 use crate::Result;
+use crate::imaging::{Border, bilinear};
 use crate::progress::{Monitor, Stage, report};
 use image::RgbImage;
 use nalgebra::{Point2, Vector3};
@@ -137,7 +138,7 @@ impl System {
         }
     }
 
-    /// Normal equations times a vector.
+    /// Multiplies the normal equations by a vector.
     fn apply(&self, x: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
         let mut y: Vec<Vector3<f64>> = x.iter().map(|value| value * ANCHOR).collect();
         let seams = self.seams.iter().map(|(pair, _)| (pair, 1.0));
@@ -196,13 +197,13 @@ impl System {
     }
 }
 
-/// Sums of products for each channel.
+/// Returns the sums of products for each channel.
 fn dot(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Vector3<f64> {
     let products = a.iter().zip(b).map(|(a, b)| a.component_mul(b));
     products.fold(Vector3::zeros(), |sum, product| sum + product)
 }
 
-/// Mean of the differences of each pair.
+/// Returns the mean of the differences of each pair.
 fn averaged(mut all: Vec<([u32; 2], Vector3<f64>)>) -> Vec<([u32; 2], Vector3<f64>)> {
     // Stable, so that sums keep their order.
     all.sort_by_key(|(pair, _)| *pair);
@@ -222,7 +223,7 @@ struct Side<'a> {
 }
 
 impl Side<'_> {
-    /// Mean color along the edge, with weights that fall from one end to the other.
+    /// Returns the mean color along the edge, weighted from 1 at one end to 0 at the other.
     fn color(&self, end: usize) -> Vector3<f64> {
         let (from, to) = (self.ends[end], self.ends[1 - end]);
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
@@ -236,18 +237,15 @@ impl Side<'_> {
     }
 }
 
-/// Bilinear interpolation of a photo, 0 to 255; the border continues outward.
+/// Returns red, green and blue of a photo, 0 to 255, by bilinear interpolation; border pixels are
+/// repeated outside.
 pub(super) fn color_at(photo: &RgbImage, pixel: &Point2<f64>) -> Vector3<f64> {
-    let (width, height) = photo.dimensions();
-    let u = pixel.x.clamp(0.0, f64::from(width) - 1.0);
-    let v = pixel.y.clamp(0.0, f64::from(height) - 1.0);
-    let (left, top) = (u.floor() as u32, v.floor() as u32);
-    let (right, bottom) = ((left + 1).min(width - 1), (top + 1).min(height - 1));
-    let (du, dv) = (u - f64::from(left), v - f64::from(top));
-    let at = |u: u32, v: u32| Vector3::from(photo.get_pixel(u, v).0.map(f64::from));
-    let upper = at(left, top) * (1.0 - du) + at(right, top) * du;
-    let lower = at(left, bottom) * (1.0 - du) + at(right, bottom) * du;
-    upper * (1.0 - dv) + lower * dv
+    let raw = photo.as_raw();
+    Vector3::from_fn(|channel, _| {
+        let read = |pixel: usize| raw[3 * pixel + channel].into();
+        let size = photo.dimensions();
+        f64::from(bilinear(size, pixel.x, pixel.y, Border::Replicate, read))
+    })
 }
 
 #[cfg(test)]

@@ -113,7 +113,7 @@ fn check_mesh(mesh: &Mesh, views: &[MvsView]) -> Result<()> {
     )])
 }
 
-/// Mean color of the vertices; gray without colors.
+/// Returns the mean color of the vertices; gray without colors.
 fn mean_color(mesh: &Mesh) -> Rgb<u8> {
     let colors = &mesh.vertices.colors;
     let sum = |channel: usize| {
@@ -128,7 +128,7 @@ fn mean_color(mesh: &Mesh) -> Rgb<u8> {
     }
 }
 
-/// Pixels of a piece: the photo plus the offsets, which continue into the padding.
+/// Returns the pixels of a piece: the photo plus the offsets, which continue into the padding.
 fn patch(photo: &RgbImage, chart: &Chart, offsets: &[[Vector3<f64>; 3]], scale: f64) -> RgbImage {
     let [width, height] = chart.size;
     let mut known: Vec<Option<Vector3<f64>>> = vec![None; width as usize * height as usize];
@@ -159,7 +159,7 @@ fn patch(photo: &RgbImage, chart: &Chart, offsets: &[[Vector3<f64>; 3]], scale: 
     })
 }
 
-/// Offsets that also cover the neighbors of known pixels, by their means.
+/// Extends offsets to the neighbors of known pixels, by their means.
 fn grown(known: &[Option<Vector3<f64>>], width: usize) -> Vec<Option<Vector3<f64>>> {
     let height = known.len() / width.max(1);
     let mut grown = known.to_vec();

@@ -37,9 +37,9 @@ pub(super) fn candidates(
 ) -> Result<Vec<Vec<Candidate>>> {
     let mut found = vec![Vec::new(); mesh.triangles.len()];
     for (chunk, some) in views.chunks(CHUNK).enumerate() {
-        let share = |n: usize| (n as f32 / views.len() as f32).min(1.0);
+        let fraction = |n: usize| (n as f32 / views.len() as f32).min(1.0);
         let (from, to) = (chunk * CHUNK, (chunk + 1) * CHUNK);
-        let mut part = Part::new(monitor, share(from), share(to));
+        let mut part = Part::new(monitor, fraction(from), fraction(to));
         let areas = monitored::map(some, Stage::Blending, &mut part, |view| {
             areas_px(mesh, view)
         })?;
@@ -68,14 +68,14 @@ fn insert(list: &mut Vec<Candidate>, candidate: Candidate) {
     list.truncate(MAX_CANDIDATES);
 }
 
-/// Pixel and depth of a vertex; `None` behind the camera.
+/// Returns pixel and depth of a vertex; `None` behind the camera.
 pub(super) fn project(view: &MvsView, vertex: &Point3<f64>) -> Option<(Point2<f64>, f64)> {
     let in_cam = view.camera.cam_from_world * vertex;
     let pixel = view.camera.camera.intrinsics.project(&in_cam).ok()?;
     Some((pixel, in_cam.z))
 }
 
-/// Whether a pixel has neighbors on all sides.
+/// Returns whether a pixel has neighbors on all sides.
 pub(super) fn is_inside(view: &MvsView, pixel: &Point2<f64>) -> bool {
     let (width, height) = view.image.dimensions();
     let is_in =
