@@ -41,10 +41,10 @@ const STORES = {
   },
 };
 
-for (const [what, spoil] of Object.entries(STORES)) {
+for (const [what, corrupt] of Object.entries(STORES)) {
   test(`where storage is ${what}, pages work and say what they cannot remember`, async ({ page }) => {
     const site = await library();
-    await page.addInitScript(spoil);
+    await page.addInitScript(corrupt);
     await page.setViewportSize({ width: 1400, height: 900 });
     await page.goto(`${site.origin}/course/connections.html`);
     const root = page.locator("html");

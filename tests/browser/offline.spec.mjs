@@ -202,10 +202,10 @@ const FORBIDDEN = {
   },
 };
 
-for (const [what, spoil] of Object.entries(FORBIDDEN)) {
+for (const [what, corrupt] of Object.entries(FORBIDDEN)) {
   test(`a browser that ${what} shows the book as before`, async ({ page }) => {
     const site = await library();
-    await page.addInitScript(spoil);
+    await page.addInitScript(corrupt);
     await page.goto(`${site.address}/rays.html`);
     await ready(page.locator("epipole-figure").first());
     await page.waitForTimeout(2000);

@@ -22,7 +22,7 @@ const MOST_UNSEEN: f64 = 0.75;
 /// # Errors
 /// If that part is more than three quarters.
 pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
-    let share = lens::unseen_share(camera);
+    let share = lens::unseen_ratio(camera);
     let sentence = format!(
         "the lens model of --camera has no ray for {:.0}% of the image, where it folds",
         100.0 * share

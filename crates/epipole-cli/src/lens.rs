@@ -36,7 +36,7 @@ impl From<Model> for LensKind {
 
 /// Returns the fraction of an image without rays: beyond the fold of its lens model, or more than
 /// 180° off the axis.
-pub(crate) fn unseen_share(camera: &Camera) -> f64 {
+pub(crate) fn unseen_ratio(camera: &Camera) -> f64 {
     const SIDE: u32 = 24;
     let at = |n: u32, size: u32| f64::from(size) * (f64::from(n) + 0.5) / f64::from(SIDE) - 0.5;
     let places = (0..SIDE * SIDE)

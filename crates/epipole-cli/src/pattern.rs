@@ -47,7 +47,7 @@ impl PatternArguments {
             Printed::AsymmetricCircles => Pattern::AsymmetricCircles,
             Printed::Charuco => Pattern::Charuco {
                 dictionary: self.dictionary,
-                marker_share: marker.map_or(MARKER_SHARE, |marker| marker / square),
+                marker_ratio: marker.map_or(MARKER_SHARE, |marker| marker / square),
             },
             Printed::Aprilgrid => Pattern::AprilGrid {
                 spacing: self.tag_spacing,

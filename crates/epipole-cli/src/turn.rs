@@ -4,8 +4,8 @@ use crate::failure::Failure;
 use epipole::camera::Camera;
 use epipole::robust::{LineEstimator, RansacOptions};
 use epipole::two_view::{
-    Degeneracy, ExplainingTurn, TwoViewOptions, find_degeneracy, find_explaining_turn,
-    find_turn_and_focal, find_unmoved,
+    Degeneracy, ExplainingRotation, TwoViewOptions, find_degeneracy, find_explaining_rotation,
+    find_rotation_and_focal, find_unmoved,
 };
 use nalgebra::Point2;
 
@@ -18,12 +18,12 @@ pub(crate) fn find_turn(
     cameras: [&Camera; 2],
     inliers: &[bool],
     ransac: &RansacOptions,
-) -> epipole::Result<Option<ExplainingTurn>> {
-    find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging(ransac))
+) -> epipole::Result<Option<ExplainingRotation>> {
+    find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging(ransac))
 }
 
 /// Returns a warning about a rotation that explains the inliers.
-pub(crate) fn sentence(turn: &ExplainingTurn) -> String {
+pub(crate) fn sentence(turn: &ExplainingRotation) -> String {
     format!(
         "a pure rotation explains {} of the {} inliers: whether and in which direction the camera \
          moved cannot be determined",
@@ -43,7 +43,7 @@ pub(crate) fn sentence_of_other_focal(
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> epipole::Result<Option<String>> {
-    let turn = find_turn_and_focal(pixels1, pixels2, cameras, inliers, options)?;
+    let turn = find_rotation_and_focal(pixels1, pixels2, cameras, inliers, options)?;
     Ok(turn.map(|turn| {
         format!(
             "a pure rotation by {:.1}° with a focal length near {:.0} px also explains {} of the {} inliers: \

@@ -36,13 +36,13 @@ impl From<absolute_pose::AbsolutePoseWithFocal> for AbsolutePoseWithFocal {
 #[pymethods]
 impl AbsolutePoseWithFocal {
     /// Whether the points determine the focal length.
-    fn tells_focal(&self) -> bool {
+    fn constrains_focal(&self) -> bool {
         let found = absolute_pose::AbsolutePoseWithFocal {
             cam_from_world: self.cam_from_world.0,
             focal_px: self.focal_px,
             focal_std_px: self.focal_std_px,
         };
-        found.tells_focal()
+        found.constrains_focal()
     }
 }
 

@@ -87,7 +87,7 @@ fn report(py: Python<'_>, found: two_view::TwoViewReport) -> PyResult<TwoViewRep
 
 record! {
     /// Rotation that explains nearly all inliers.
-    "epipole.two_view" ExplainingTurn {
+    "epipole.two_view" ExplainingRotation {
         /// Rotation, with a translation of 0.
         cam2_from_cam1: RigidTransform,
         /// Number of inliers that it explains.
@@ -99,7 +99,7 @@ record! {
 
 record! {
     /// Rotation and focal length change that explain nearly all inliers.
-    "epipole.two_view" TurnAndFocal {
+    "epipole.two_view" RotationAndFocal {
         /// Rotation, with a translation of 0.
         cam2_from_cam1: RigidTransform,
         /// Ratio of the actual to the given focal lengths, for both cameras.
@@ -150,7 +150,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 /// **options : TwoViewOptions
-///     ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
+///     ``min_num_inliers=15``, ``max_homography_ratio=0.8``, ``min_essential_ratio=0.95``, and
 ///     ``ransac``, a dict of RANSAC options.
 ///
 /// Returns
@@ -166,7 +166,7 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 /// epipole.NoConsensusError
 ///     If every model has fewer inliers than its sample has matches.
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_two_view(
@@ -210,7 +210,7 @@ fn estimate_two_view(
 /// epipole.NoConsensusError
 ///     If every model has fewer inliers than its sample has matches.
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_two_view_calibrated(
@@ -293,7 +293,7 @@ fn estimate_rotation(
 /// Raises
 /// ------
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, inliers, **options))]
 fn find_degeneracy(
@@ -327,7 +327,7 @@ fn find_degeneracy(
 /// Raises
 /// ------
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 ///
 /// Examples
 /// --------
@@ -360,31 +360,31 @@ fn find_unmoved(
 ///
 /// Returns
 /// -------
-/// ExplainingTurn or None
+/// ExplainingRotation or None
 ///
 /// Raises
 /// ------
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
-fn find_explaining_turn(
+fn find_explaining_rotation(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
     camera1: &Camera,
     camera2: &Camera,
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Option<ExplainingTurn>> {
+) -> PyResult<Option<ExplainingRotation>> {
     let py = inliers.py();
     let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
     let inliers = mask("inliers", inliers)?;
     let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
     let found = progress::detach(py, || {
-        two_view::find_explaining_turn(&pixels1, &pixels2, cameras, &inliers, &options)
+        two_view::find_explaining_rotation(&pixels1, &pixels2, cameras, &inliers, &options)
     });
-    Ok(found.or_raise()?.map(|turn| ExplainingTurn {
+    Ok(found.or_raise()?.map(|turn| ExplainingRotation {
         cam2_from_cam1: turn.cam2_from_cam1.into(),
         num_explained: turn.num_explained,
         num_inliers: turn.num_inliers,
@@ -402,31 +402,31 @@ fn find_explaining_turn(
 ///
 /// Returns
 /// -------
-/// TurnAndFocal or None
+/// RotationAndFocal or None
 ///
 /// Raises
 /// ------
 /// ValueError
-///     If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+///     If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, inliers, **options))]
-fn find_turn_and_focal(
+fn find_rotation_and_focal(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
     camera1: &Camera,
     camera2: &Camera,
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<Option<TurnAndFocal>> {
+) -> PyResult<Option<RotationAndFocal>> {
     let py = inliers.py();
     let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
     let inliers = mask("inliers", inliers)?;
     let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
     let found = progress::detach(py, || {
-        two_view::find_turn_and_focal(&pixels1, &pixels2, cameras, &inliers, &options)
+        two_view::find_rotation_and_focal(&pixels1, &pixels2, cameras, &inliers, &options)
     });
-    Ok(found.or_raise()?.map(|turn| TurnAndFocal {
+    Ok(found.or_raise()?.map(|turn| RotationAndFocal {
         cam2_from_cam1: turn.cam2_from_cam1.into(),
         focal_factor: turn.focal_factor,
         num_explained: turn.num_explained,
@@ -438,15 +438,15 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("PHOTO_MAX_ERROR_PX", two_view::PHOTO_MAX_ERROR_PX)?;
     options::declare(module, &TwoViewOptions::default())?;
     module.add_class::<TwoViewReport>()?;
-    module.add_class::<ExplainingTurn>()?;
-    module.add_class::<TurnAndFocal>()?;
+    module.add_class::<ExplainingRotation>()?;
+    module.add_class::<RotationAndFocal>()?;
     module.add_class::<Degeneracy>()?;
     module.add_function(wrap_pyfunction!(estimate_two_view, module)?)?;
     module.add_function(wrap_pyfunction!(estimate_two_view_calibrated, module)?)?;
     module.add_function(wrap_pyfunction!(estimate_rotation, module)?)?;
     module.add_function(wrap_pyfunction!(find_degeneracy, module)?)?;
     module.add_function(wrap_pyfunction!(find_unmoved, module)?)?;
-    module.add_function(wrap_pyfunction!(find_explaining_turn, module)?)?;
-    module.add_function(wrap_pyfunction!(find_turn_and_focal, module)?)?;
+    module.add_function(wrap_pyfunction!(find_explaining_rotation, module)?)?;
+    module.add_function(wrap_pyfunction!(find_rotation_and_focal, module)?)?;
     Ok(())
 }

@@ -51,10 +51,10 @@ def test_boards():
     assert (board.columns, board.rows, board.num_marks, board.square_m) == (9, 6, 54, 0.025)
     np.testing.assert_allclose(board.mark(10), (0.025, 0.025))
     assert board.marks().shape == (54, 2)
-    charuco = Board({"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}, 7, 5, 0.03)
+    charuco = Board({"charuco": {"dictionary": "Aruco4x4_50", "marker_ratio": 0.75}}, 7, 5, 0.03)
     assert (charuco.columns, charuco.rows) == (7, 5)
     assert (charuco.mark_columns, charuco.mark_rows) == (6, 4)
-    assert charuco.pattern["charuco"]["marker_share"] == 0.75
+    assert charuco.pattern["charuco"]["marker_ratio"] == 0.75
     drawing = Board("chessboard", 3, 3, 0.02).drawing()
     assert drawing.rectangles.shape == (8, 2, 2)
     assert Board("circles", 4, 4, 0.02).drawing().disks.shape == (16, 2)
@@ -107,7 +107,7 @@ def test_intrinsics_from_planes():
 
 def test_find_board(board, camera):
     flat = pose((0.1, 0.2, 0.05), (-0.09, -0.06, 0.35))
-    photo = calibration.photograph_of_board(board, camera, flat, noise=0.01)
+    photo = calibration.render_board(board, camera, flat, noise=0.01)
     assert photo.shape == (480, 640) and photo.dtype == np.float32
     search = find_board(photo, board)
     assert search.kind == "found" and search.problem(board) is None
@@ -125,7 +125,7 @@ def test_find_board(board, camera):
 def test_find_board_as_opencv(board, camera):
     cv2 = pytest.importorskip("cv2")
     flat = pose((0.1, 0.2, 0.05), (-0.09, -0.06, 0.35))
-    photo = calibration.photograph_of_board(board, camera, flat)
+    photo = calibration.render_board(board, camera, flat)
     photo = (photo * 255).astype(np.uint8)
     is_found, corners = cv2.findChessboardCornersSB(photo, (7, 5))
     assert is_found
@@ -193,7 +193,7 @@ def test_wrong_arguments_are_named(board, camera, views):
 def test_pickles_are_equal(board, camera, views):
     hidden = views[0].pixels
     hidden[3] = np.nan
-    photo = calibration.photograph_of_board(board, camera, pose((0.1, 0, 0)))
+    photo = calibration.render_board(board, camera, pose((0.1, 0, 0)))
     for value in (
         board,
         Board({"april_grid": {"spacing": 0.25}}, 6, 6, 0.08),

@@ -51,7 +51,7 @@ BY_RULE = {
         calibration.Board.drawing calibration.Board.marks calibration.BoardView.seen
         camera.Intrinsics.inverse_matrix camera.Intrinsics.matrix
         camera.PosedCamera.projection_matrix camera.RigidTransform.matrix
-        epipolar.PoseWithFocal.tells_focal epipolar.RelativePose.essential
+        epipolar.PoseWithFocal.constrains_focal epipolar.RelativePose.essential
         epipolar.RelativePose.fundamental feature.ScaleSpace.answers feature.StructureTensor.at
         feature.StructureTensor.eigenvalues imaging.Gradient.magnitude
         imaging.Gradient.orientation io.Model.cloud io.PreparedPhoto.camera

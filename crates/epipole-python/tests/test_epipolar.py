@@ -44,7 +44,7 @@ def test_pose_and_focal(world):
     pixels2 = (world.rays2 @ k.T)[:, :2]
     report = epipolar.estimate_relative_pose_and_focal(pixels1, pixels2, k[:2, 2], k[:2, 2])
     assert report.model.focal_px == pytest.approx(500, rel=1e-3)
-    assert isinstance(report.model.tells_focal(), bool)
+    assert isinstance(report.model.constrains_focal(), bool)
     six = epipolar.essential_6point(pixels1[:6], pixels2[:6], k[:2, 2], k[:2, 2])
     assert any(abs(found.focal_px - 500) < 1e-3 for found in six)
 

@@ -110,7 +110,7 @@ CALLS = {
     "match_descriptors": lambda f, p: feature.match_descriptors(*f("descriptors"), progress=p),
     "nearest_two": lambda f, p: feature.nearest_two(*f("descriptors"), progress=p),
     "Undistortion": lambda f, p: calibration.Undistortion(f("lens"), progress=p),
-    "photograph_of_board": lambda f, p: calibration.photograph_of_board(
+    "render_board": lambda f, p: calibration.render_board(
         calibration.Board("chessboard", 9, 6, 0.03),
         f("lens"),
         camera.RigidTransform(np.eye(3), [-0.12, -0.075, 0.35]),

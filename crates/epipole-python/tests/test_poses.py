@@ -67,7 +67,7 @@ def test_absolute_pose_and_focal(world):
     principal = np.array([320.0, 240.0])
     pixels = 500 * world.rays2[:, :2] + principal
     report = absolute_pose.estimate_absolute_pose_and_focal(world.points, pixels, principal)
-    assert report.model.focal_px == pytest.approx(500) and report.model.tells_focal()
+    assert report.model.focal_px == pytest.approx(500) and report.model.constrains_focal()
     four = absolute_pose.pose_p4pf(pixels[:4], world.points[:4], principal)
     assert any(abs(found.focal_px - 500) < 1e-3 for found in four)
 
@@ -125,11 +125,11 @@ def test_rotations(world):
     found = two_view.estimate_rotation(*matches, *cameras).model
     np.testing.assert_allclose(found, turn, atol=1e-6)
     all_inliers = np.ones(60, bool)
-    explaining = two_view.find_explaining_turn(*matches, *cameras, all_inliers)
+    explaining = two_view.find_explaining_rotation(*matches, *cameras, all_inliers)
     assert explaining.num_explained == 60
     assert two_view.find_degeneracy(*matches, all_inliers).kind == "homography"
     still = (world.pixels1, world.pixels1)
     assert two_view.find_unmoved(*still, all_inliers).kind == "unmoved"
-    assert two_view.find_turn_and_focal(*matches, *cameras, all_inliers).focal_factor > 0.5
+    assert two_view.find_rotation_and_focal(*matches, *cameras, all_inliers).focal_factor > 0.5
     with pytest.raises(TypeError, match="inliers must be a boolean array"):
         two_view.find_unmoved(*still, np.ones(60))

@@ -55,7 +55,7 @@ impl Stage {
             Self::FeatureDetection => "finding features",
             Self::FeatureMatching => "matching features",
             Self::PairVerification => "testing pairs",
-            Self::Registration => "adding photographs",
+            Self::Registration => "registering images",
             Self::BundleAdjustment => "refining cameras and points",
             Self::PoseGraph => "refining poses",
             Self::RobustEstimation => "drawing samples",

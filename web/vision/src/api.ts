@@ -145,7 +145,7 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   detectMarkers: ["all", "image", "dictionary", "options"],
   boardMarks: ["all", "board"],
   boardDrawing: ["all", "board"],
-  photographOfBoard: ["all", "board", "camera", "camFromBoard", "noise", "seed"],
+  renderBoard: ["all", "board", "camera", "camFromBoard", "noise", "seed"],
   calibrate: ["all", "board", "views", "width", "height", "options"],
   calibrateRig: ["all", "board", "leftCamera", "rightCamera", "left", "right", "options"],
   intrinsicsFromPlanes: ["all", "pixelsFromPlane"],
@@ -190,10 +190,10 @@ export interface AveragedRotations {
 /** Flat board with marks at known places: x along its columns, y along its rows, z = 0. */
 export interface Board {
   /**
-   * Marks. Markers of a ChArUco board have `markerShare` of the side of its squares; tags of an
+   * Marks. Markers of a ChArUco board have `markerRatio` of the side of its squares; tags of an
    * AprilGrid are `spacing` of their side apart.
    */
-  pattern: "chessboard" | "circles" | "asymmetricCircles" | { charuco: { dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11"; markerShare: number } } | { aprilGrid: { spacing: number } };
+  pattern: "chessboard" | "circles" | "asymmetricCircles" | { charuco: { dictionary: "Aruco4x4_50" | "Aruco4x4_100" | "Aruco4x4_250" | "Aruco4x4_1000" | "Aruco5x5_50" | "Aruco5x5_100" | "Aruco5x5_250" | "Aruco5x5_1000" | "Aruco6x6_50" | "Aruco6x6_100" | "Aruco6x6_250" | "Aruco6x6_1000" | "Aruco7x7_50" | "Aruco7x7_100" | "Aruco7x7_250" | "Aruco7x7_1000" | "AprilTag36h11"; markerRatio: number } } | { aprilGrid: { spacing: number } };
   /** Inner corners of a chessboard, squares of a ChArUco board, tags of an AprilGrid, disks in a row. */
   columns: number;
   /** The same along a column; rows of disks. */
@@ -1499,9 +1499,9 @@ export interface TwoViewOptions {
    * Minimum fraction of epipolar inliers that a homography must explain for the scene to count as a
    * plane or pure rotation. Above 1 none does. 0.8. @default 0.8
    */
-  maxHomographyShare?: number;
+  maxHomographyRatio?: number;
   /** Minimum ratio of E's inliers to F's for E to be preferred. 0.95. @default 0.95 */
-  minEssentialShare?: number;
+  minEssentialRatio?: number;
 }
 
 /** Matches between two images of 640 x 480 pixels, with ground truth. */
@@ -1991,7 +1991,7 @@ export interface Functions {
    * Photo of a board with gray values in [0, 1], to test with exact truth. `noise` is the standard
    * deviation of the gray values, 0 if not given.
    */
-  photographOfBoard(board: Board, camera: Camera, camFromBoard: RigidTransformLike, noise?: number, seed?: number): Promise<GrayImage>;
+  renderBoard(board: Board, camera: Camera, camFromBoard: RigidTransformLike, noise?: number, seed?: number): Promise<GrayImage>;
   /**
    * Intrinsics, lens, and poses of a board with the least squared reprojection errors in photos of
    * `width` x `height` pixels. A view has the `pixels` of `findBoard`; null for a photo without a board.

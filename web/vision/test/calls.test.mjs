@@ -347,7 +347,7 @@ for (const worker of [false, true]) {
     const views = [];
     for (const [x, y] of [[0.28, 0], [-0.28, 0], [0, 0.28], [0, -0.28]]) {
       const pose = { quaternion: [0.96, x, y, 0], translation: [-0.09 + 0.1 * y, -0.06, 0.35] };
-      const photo = await vision.photographOfBoard(board, camera, pose);
+      const photo = await vision.renderBoard(board, camera, pose);
       const { pixels, numSeen, problem } = await vision.findBoard(photo, board);
       assert.deepEqual([numSeen, problem], [35, null]);
       views.push(pixels);

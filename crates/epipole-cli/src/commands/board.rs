@@ -173,9 +173,9 @@ fn calibrate_options(arguments: &Arguments, pattern: Pattern) -> String {
     match pattern {
         Pattern::Charuco {
             dictionary,
-            marker_share,
+            marker_ratio,
         } => {
-            let marker = trimmed(marker_share * arguments.square_mm);
+            let marker = trimmed(marker_ratio * arguments.square_mm);
             options += &format!(" --marker-m {marker} --dictionary {}", dictionary.name());
         }
         Pattern::AprilGrid { spacing } => options += &format!(" --tag-spacing {spacing}"),
@@ -191,11 +191,11 @@ fn sizes(arguments: &Arguments, pattern: Pattern) -> String {
         Pattern::Chessboard => format!("{columns} x {rows} inner corners, squares of {side} mm"),
         Pattern::Charuco {
             dictionary,
-            marker_share,
+            marker_ratio,
         } => format!(
             "ChArUco, {columns} x {rows} squares of {side} mm, markers {} of {:.2} mm",
             dictionary.name(),
-            marker_share * side
+            marker_ratio * side
         ),
         Pattern::AprilGrid { spacing } => format!(
             "AprilGrid, {columns} x {rows} tags 36h11 of {side} mm, {:.2} mm apart",

@@ -48,7 +48,7 @@ enum Model {
     or as found by auto), mean_error_px (of the inliers), num_left_out (rows beyond 10⁹ pixels), for\n\
     homography and fundamental not_determined (a sentence if the inliers show no motion, or for\n\
     fundamental a plane or a rotation; else null), and for essential cam2_from_cam1 (rotation and\n\
-    translation of length 1) and could_be_turn (whether a rotation alone explains nearly all inliers,\n\
+    translation of length 1) and could_be_rotation (whether a rotation alone explains nearly all inliers,\n\
     so that the translation is meaningless).\n\n\
     Errors: distance of a point from a line; distance in image 2 for homography and similarity; Sampson\n\
     error for fundamental and essential."
@@ -93,7 +93,7 @@ struct Found {
     max_error_px: f64,
     errors_px: Vec<f64>,
     cam2_from_cam1: Option<RigidTransform>,
-    could_be_turn: Option<bool>,
+    could_be_rotation: Option<bool>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -165,8 +165,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if let Some(motion) = &found.cam2_from_cam1 {
         report = report.field("cam2_from_cam1", Motion::from(motion));
     }
-    if let Some(could_be_turn) = found.could_be_turn {
-        report = report.field("could_be_turn", could_be_turn);
+    if let Some(could_be_rotation) = found.could_be_rotation {
+        report = report.field("could_be_rotation", could_be_rotation);
     }
     if let Some(path) = &arguments.output {
         let text = match_file::inliers(path, [&pixels1, &pixels2], &found.inliers);
@@ -270,7 +270,7 @@ fn fit(
             }
             Ok(Found {
                 cam2_from_cam1: Some(pose.cam2_from_cam1()),
-                could_be_turn: Some(turn.is_some()),
+                could_be_rotation: Some(turn.is_some()),
                 ..of_matrix(found, &pose.essential(), errors)
             })
         }
@@ -312,6 +312,6 @@ fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -
         stop: report.stop,
         errors_px,
         cam2_from_cam1: None,
-        could_be_turn: None,
+        could_be_rotation: None,
     }
 }

@@ -1,7 +1,7 @@
 //! `epipole board`, and `calibrate` with the boards that it draws.
 
 use crate::common::{Folder, fails, json, numbers, path};
-use epipole::calibration::{Board, MarkerDictionary, Pattern, find_board, photograph_of_board};
+use epipole::calibration::{Board, MarkerDictionary, Pattern, find_board, render_board};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::imaging::GrayImage32;
 use image::{GrayImage, Luma};
@@ -10,7 +10,7 @@ use serde_json::json;
 
 const CHARUCO: Pattern = Pattern::Charuco {
     dictionary: MarkerDictionary::Aruco5x5_100,
-    marker_share: 0.7,
+    marker_ratio: 0.7,
 };
 
 /// Its options, its marks, and the width of what is black.
@@ -237,8 +237,7 @@ fn parts_of_charuco_boards_calibrate_a_camera() {
             Vector3::new(x - 0.08, y - 0.05, 0.27),
             Vector3::new(a, b, c),
         );
-        let photo =
-            photograph_of_board(&board, &camera, &pose, 0.01, index as u64, &mut ()).unwrap();
+        let photo = render_board(&board, &camera, &pose, 0.01, index as u64, &mut ()).unwrap();
         let file = folder.file(&format!("board{index}.png"));
         GrayImage::from_fn(480, 360, |u, v| {
             Luma([(255.0 * photo.get_pixel(u, v).0[0]).round() as u8])

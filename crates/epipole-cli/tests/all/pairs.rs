@@ -125,14 +125,14 @@ fn fits_of_essential_matrices_say_that_the_camera_may_have_only_turned() {
     ] {
         let file = folder.write("matches.txt", &rows(&mut random, &motion, noise_px));
         let (result, told) = told(&["fit", "--model", "essential", path(&file), "--k", K]);
-        assert_eq!(result["could_be_turn"], expected, "{motion} {noise_px}");
+        assert_eq!(result["could_be_rotation"], expected, "{motion} {noise_px}");
         let warned = told.contains("warning: a pure rotation explains 1");
         assert_eq!(warned, expected, "{motion} {noise_px}: {told}");
         assert_eq!(result["could_be_chance"], false);
     }
     let file = folder.write("matches.txt", &rows(&mut random, &step(), 0.5));
     let (result, _) = told(&["fit", "--model", "fundamental", path(&file)]);
-    assert!(result.get("could_be_turn").is_none());
+    assert!(result.get("could_be_rotation").is_none());
 }
 
 /// Inliers on one line do not constrain the model beside it, and a homography fits any two matches

@@ -5,7 +5,7 @@ use epipole::camera::Camera;
 use nalgebra::{Point2, Point3, Vector3};
 
 /// Length of the frusta relative to the extent of the scene.
-pub(super) const FRUSTUM_SHARE: f64 = 0.05;
+pub(super) const FRUSTUM_RATIO: f64 = 0.05;
 
 /// Returns the corners of the image at this depth, in the frame of the camera. A corner without a
 /// ray in front of the camera is that of a pinhole.

@@ -6,7 +6,7 @@
 //! Source: Khronos Group, "glTF 2.0 Specification".
 
 use super::Model;
-use super::frustum::{FRUSTUM_SHARE, corners, extent};
+use super::frustum::{FRUSTUM_RATIO, corners, extent};
 use crate::Result;
 use crate::gltf::{Buffer, HALF_TURN, LINES, POINTS, document};
 use crate::rotation::half_turn;
@@ -41,7 +41,7 @@ impl Model {
                 "mode": POINTS, "attributes": { "POSITION": position, "COLOR_0": color },
             }]}));
         }
-        let depth = FRUSTUM_SHARE * extent(self).1;
+        let depth = FRUSTUM_RATIO * extent(self).1;
         let first = meshes.len();
         let mut cameras = Vec::new();
         if !self.images.is_empty() {

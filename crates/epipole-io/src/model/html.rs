@@ -1,6 +1,6 @@
 //! An offline page of one file to rotate and measure the model in any browser.
 
-use super::frustum::{FRUSTUM_SHARE, corners, extent};
+use super::frustum::{FRUSTUM_RATIO, corners, extent};
 use super::{Model, ModelImage};
 use crate::{Error, Result};
 use base64::Engine;
@@ -111,7 +111,7 @@ impl Model {
                 "name": image.name,
                 "center": numbers(image.center_in_world() - origin),
                 "axes": axes.map(|axis| numbers(world_from_cam * axis)),
-                "corners": corners(camera, FRUSTUM_SHARE * extent).map(corner),
+                "corners": corners(camera, FRUSTUM_RATIO * extent).map(corner),
                 "focal": [
                     2.0 * k.fu_px() / f64::from(camera.width),
                     2.0 * k.fv_px() / f64::from(camera.height),

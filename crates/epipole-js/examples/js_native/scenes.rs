@@ -66,7 +66,7 @@ impl Calls {
                     "charuco",
                     record([
                         ("dictionary", text("Aruco4x4_50")),
-                        ("markerShare", Value::Number(0.75)),
+                        ("markerRatio", Value::Number(0.75)),
                     ]),
                 )]),
                 7.0,
@@ -92,7 +92,7 @@ impl Calls {
             let pose = record([("translation", Value::Doubles(vec![-0.09, -0.07, 0.4]))]);
             let (noise, seed) = (Value::Number(0.01), Value::Number(3.0));
             let photo = self.add(
-                "photographOfBoard",
+                "renderBoard",
                 &[board.clone(), camera.clone(), pose, noise, seed],
             )?;
             let found = self.add("findBoard", &[photo.clone(), board])?;

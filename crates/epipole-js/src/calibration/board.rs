@@ -61,7 +61,7 @@ impl Argument for Board {
                 (
                     "pattern",
                     &pattern,
-                    "Marks. Markers of a ChArUco board have `markerShare` of the side of its \
+                    "Marks. Markers of a ChArUco board have `markerRatio` of the side of its \
                      squares; tags of an AprilGrid are `spacing` of their side apart.",
                 ),
                 (
@@ -140,12 +140,12 @@ functions! {
 
     /// Photo of a board with gray values in [0, 1], to test with exact truth. `noise` is the
     /// standard deviation of the gray values, 0 if not given.
-    fn photograph_of_board(
+    fn render_board(
         board: Board, camera: Camera, cam_from_board: RigidTransform, noise: Option<f64>,
         seed: Option<u32>; monitor
     ) -> GrayImage32 {
         require_size("camera", camera.width, camera.height)?;
         let (noise, seed) = (noise.unwrap_or(0.0), u64::from(seed.unwrap_or(0)));
-        calibration::photograph_of_board(&board, &camera, &cam_from_board, noise, seed, monitor)?
+        calibration::render_board(&board, &camera, &cam_from_board, noise, seed, monitor)?
     }
 }

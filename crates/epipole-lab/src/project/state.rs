@@ -44,7 +44,7 @@ pub enum Outcome {
     OverlapsNone(usize),
     /// Only rotation relative to all overlapping photographs. If this holds only for another focal
     /// length than the given one, that focal length in pixels of the original photograph.
-    OnlyTurned(Option<u32>),
+    RotationOnly(Option<u32>),
     /// Too few visible points, with their number.
     SeesFew(usize),
     /// Visible points that do not agree on a pose, with their number.

@@ -1,6 +1,6 @@
 //! Rendered photographs of a chessboard, through a lens with distortion.
 
-use epipole::calibration::{Board, Pattern, photograph_of_board};
+use epipole::calibration::{Board, Pattern, render_board};
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -47,7 +47,7 @@ pub(super) fn photograph(index: u8) -> Result<Option<RgbImage>, epipole::Error> 
     let at = Vector3::new(*right, *down, *away) / 100.0;
     let moved = at - rotation * Vector3::new(middle.x, middle.y, 0.0);
     let pose = RigidTransform::from_parts(moved.into(), rotation);
-    let gray = photograph_of_board(&board, &camera, &pose, NOISE, u64::from(index), &mut ())?;
+    let gray = render_board(&board, &camera, &pose, NOISE, u64::from(index), &mut ())?;
     Ok(Some(RgbImage::from_fn(640, 480, |u, v| {
         let value = (255.0 * gray.get_pixel(u, v).0[0]).round() as u8;
         Rgb([value; 3])

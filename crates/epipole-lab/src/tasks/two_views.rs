@@ -167,7 +167,7 @@ impl Run for VerifyPair {
         use epipole::robust::RansacOptions;
         use epipole::two_view::{
             Configuration, TwoViewModel, TwoViewOptions, estimate_two_view_calibrated,
-            find_turn_and_focal,
+            find_rotation_and_focal,
         };
         use nalgebra::Point2;
         let Self {
@@ -205,7 +205,7 @@ impl Run for VerifyPair {
         // With a wrong focal length, a rotation can look like a plane.
         let otherwise = match found.configuration {
             Configuration::Planar => {
-                find_turn_and_focal(&first, &second, [&one, &two], &found.inliers, &how)
+                find_rotation_and_focal(&first, &second, [&one, &two], &found.inliers, &how)
                     .map_err(sentence)?
             }
             _ => None,

@@ -1,7 +1,7 @@
 //! The depth of all views against what the photographs were rendered from, in files, and in
 //! measures.
 
-use crate::common::depth::{errors, share_below};
+use crate::common::depth::{errors, ratio_below};
 use crate::common::{computed, exported, files_for, finish, output, reopened, solved};
 use epipole_io::cloud::read_ply;
 use epipole_io::photo::{DecodeOptions, decode_rgb};
@@ -66,7 +66,7 @@ fn the_cloud_of_all_views_lies_on_the_scene() {
         assert!((Vector3::from(point.normal).norm() - 1.0).abs() < 1e-9);
         off.push(error(&project, &point).unwrap_or(f64::INFINITY));
     }
-    let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+    let (one, five) = (ratio_below(&off, 0.01), ratio_below(&off, 0.05));
     println!("{one} {five} of {}", off.len());
     assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
     let num_triangles = cloud.triangles().len();
@@ -75,7 +75,7 @@ fn the_cloud_of_all_views_lies_on_the_scene() {
     let off: Vec<f64> = vertices
         .map(|vertex| error(&project, &vertex).unwrap_or(f64::INFINITY))
         .collect();
-    let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+    let (one, five) = (ratio_below(&off, 0.01), ratio_below(&off, 0.05));
     println!("{num_triangles} triangles, {one} {five} of {}", off.len());
     assert!(one > 0.9 && five > 0.97, "{one} {five} of {}", off.len());
 }

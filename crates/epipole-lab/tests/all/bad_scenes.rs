@@ -35,7 +35,7 @@ fn a_turn_is_told_by_a_wrong_focal_length_too_with_the_right_one() {
         // Small turns look alike by any focal length; that between the first and the last
         // photograph does not.
         for photo in [0, 3].map(|n| &project.document().photos[n]) {
-            let Outcome::OnlyTurned(Some(focal_px)) = project.outcome(photo) else {
+            let Outcome::RotationOnly(Some(focal_px)) = project.outcome(photo) else {
                 panic!("{typed_px}: {each:?}");
             };
             // The camera of the sample has 600 px.

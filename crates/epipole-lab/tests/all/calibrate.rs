@@ -4,7 +4,7 @@
 use crate::common::{finish, jpeg, reopened};
 use epipole::calibration::{
     Board, BoardView, CalibrationOptions, Keep, Pattern, Undistortion, calibrate, find_board,
-    photograph_of_board,
+    render_board,
 };
 use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 use epipole::feature::photo_to_gray;
@@ -49,7 +49,7 @@ fn photographed(board: &Board, camera: &Camera, turn_deg: [f64; 2], far_m: f64) 
     let middle = board.mark(board.num_marks() - 1) / 2.0;
     let at = Vector3::new(-0.02, 0.0, far_m) - rotation * Vector3::new(middle.x, middle.y, 0.0);
     let pose = RigidTransform::from_parts(at.into(), rotation);
-    let gray = photograph_of_board(board, camera, &pose, 0.005, 1, &mut ()).unwrap();
+    let gray = render_board(board, camera, &pose, 0.005, 1, &mut ()).unwrap();
     png(&RgbImage::from_fn(camera.width, camera.height, |u, v| {
         Rgb([(255.0 * gray.get_pixel(u, v).0[0]).round() as u8; 3])
     }))

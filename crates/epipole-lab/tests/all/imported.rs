@@ -157,13 +157,13 @@ fn refuses<Q: Query>(query: Q, done: &Project, changes: &[fn(&mut Output<Q>)]) {
     let is_it = |(of, _): &(u64, Blob)| *of == key.0;
     let index = computed.results.iter().position(is_it).unwrap();
     let whole = computed.results[index].1.clone();
-    let spoil = |change: &fn(&mut Output<Q>)| {
+    let corrupt = |change: &fn(&mut Output<Q>)| {
         let mut output = Q::Task::read(&whole).unwrap();
         change(&mut output);
         Q::Task::write(&output).into()
     };
     let cut = whole[..whole.len() / 2].to_vec().into();
-    for bytes in changes.iter().map(spoil).chain([cut, Blob::default()]) {
+    for bytes in changes.iter().map(corrupt).chain([cut, Blob::default()]) {
         let mut computed = computed.clone();
         computed.results[index].1 = bytes;
         let mut project = table();

@@ -67,7 +67,7 @@ fn errors_of_pair(project: &Project, first: usize, pair: &Dense) -> Vec<f64> {
     errors(project, first, pair.points(3).map(|(place, _)| place))
 }
 
-pub(crate) fn share_below(errors: &[f64], limit: f64) -> f64 {
+pub(crate) fn ratio_below(errors: &[f64], limit: f64) -> f64 {
     errors.iter().filter(|error| **error < limit).count() as f64 / errors.len().max(1) as f64
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn every_pixel_has_its_depth(project: &mut Project) {
     assert_eq!(pair.range_px, proposed);
     assert!(proposed[0] > 0 && proposed[1] < 200, "{proposed:?}");
     let off = errors_of_pair(project, if pair.is_swapped { 4 } else { 3 }, &pair);
-    let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+    let (one, five) = (ratio_below(&off, 0.01), ratio_below(&off, 0.05));
     assert!(one > 0.8 && five > 0.93, "{one} {five} of {}", off.len());
     let words = project.describe();
     assert!(words.contains("pixels have a depth"), "{words}");
@@ -171,7 +171,7 @@ fn sizes_may_differ(project: &Project, [first, second]: [usize; 2]) {
         let pair = output(task).unwrap();
         assert_eq!((pair.width, pair.height, pair.factor), (480, 360, 1));
         let off = errors_of_pair(project, if pair.is_swapped { second } else { first }, &pair);
-        let (one, five) = (share_below(&off, 0.01), share_below(&off, 0.05));
+        let (one, five) = (ratio_below(&off, 0.01), ratio_below(&off, 0.05));
         let expected = if is_upright { 10_000 } else { 12_000 };
         println!("{changed}: {one} {five} of {}", off.len());
         assert!(

@@ -55,7 +55,7 @@ class AbsolutePoseWithFocal:
     def focal_std_px(self) -> float | None:
         """Standard deviation of the focal length, pixels; None if the focal length has no effect."""
     def __eq__(self, other: object, /) -> bool: ...
-    def tells_focal(self) -> bool:
+    def constrains_focal(self) -> bool:
         """Whether the points determine the focal length."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 

@@ -31,7 +31,7 @@ __all__ = [
     "detect_markers",
     "find_board",
     "intrinsics_from_planes",
-    "photograph_of_board",
+    "render_board",
 ]
 
 @final
@@ -42,7 +42,7 @@ class Board:
     ----------
     pattern : str or dict
         ``"chessboard"``, ``"circles"``, ``"asymmetric_circles"``,
-        ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}`` or
+        ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_ratio": 0.75}}`` or
         ``{"april_grid": {"spacing": 0.3}}``.
     columns, rows : int
         Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks per
@@ -596,7 +596,7 @@ def detect_markers(
     ValueError
         If gray values are outside [-0.5, 1.5].
     """
-def photograph_of_board(
+def render_board(
     board: Board,
     camera: Camera,
     cam_from_board: RigidTransform,

@@ -139,7 +139,7 @@ class PoseWithFocal:
     def focal_std_px(self) -> float | None:
         """Standard deviation of the focal length, pixels; None if the focal length has no effect."""
     def __eq__(self, other: object, /) -> bool: ...
-    def tells_focal(self) -> bool:
+    def constrains_focal(self) -> bool:
         """Whether the matches determine the focal length."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 

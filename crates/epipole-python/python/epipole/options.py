@@ -279,8 +279,8 @@ class TrackOptions(TypedDict, total=False):
 class TwoViewOptions(TypedDict, total=False):
     ransac: RansacOptions
     min_num_inliers: int  # 15
-    max_homography_share: float  # 0.8
-    min_essential_share: float  # 0.95
+    max_homography_ratio: float  # 0.8
+    min_essential_ratio: float  # 0.95
 
 
 class TwoViewProblemOptions(TypedDict, total=False):

@@ -14,16 +14,16 @@ from epipole.robust import RansacReport
 
 __all__ = [
     "Degeneracy",
-    "ExplainingTurn",
+    "ExplainingRotation",
     "PHOTO_MAX_ERROR_PX",
-    "TurnAndFocal",
+    "RotationAndFocal",
     "TwoViewReport",
     "estimate_rotation",
     "estimate_two_view",
     "estimate_two_view_calibrated",
     "find_degeneracy",
-    "find_explaining_turn",
-    "find_turn_and_focal",
+    "find_explaining_rotation",
+    "find_rotation_and_focal",
     "find_unmoved",
 ]
 
@@ -138,7 +138,7 @@ class TwoViewReport:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
-class ExplainingTurn:
+class ExplainingRotation:
     """Rotation that explains nearly all inliers.
 
     Parameters
@@ -155,7 +155,7 @@ class ExplainingTurn:
         cam2_from_cam1: RigidTransform,
         num_explained: int,
         num_inliers: int,
-    ) -> ExplainingTurn: ...
+    ) -> ExplainingRotation: ...
     @property
     def cam2_from_cam1(self) -> RigidTransform:
         """Rotation, with a translation of 0."""
@@ -169,7 +169,7 @@ class ExplainingTurn:
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
 @final
-class TurnAndFocal:
+class RotationAndFocal:
     """Rotation and focal length change that explain nearly all inliers.
 
     Parameters
@@ -189,7 +189,7 @@ class TurnAndFocal:
         focal_factor: float,
         num_explained: int,
         num_inliers: int,
-    ) -> TurnAndFocal: ...
+    ) -> RotationAndFocal: ...
     @property
     def cam2_from_cam1(self) -> RigidTransform:
         """Rotation, with a translation of 0."""
@@ -247,7 +247,7 @@ def estimate_two_view(
     progress : callable, optional
         Called with the stage and the completed fraction.
     **options : TwoViewOptions
-        ``min_num_inliers=15``, ``max_homography_share=0.8``, ``min_essential_share=0.95``, and
+        ``min_num_inliers=15``, ``max_homography_ratio=0.8``, ``min_essential_ratio=0.95``, and
         ``ransac``, a dict of RANSAC options.
 
     Returns
@@ -263,7 +263,7 @@ def estimate_two_view(
     epipole.NoConsensusError
         If every model has fewer inliers than its sample has matches.
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
     """
 def estimate_two_view_calibrated(
     pixels1: ArrayLike,
@@ -300,7 +300,7 @@ def estimate_two_view_calibrated(
     epipole.NoConsensusError
         If every model has fewer inliers than its sample has matches.
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
     """
 def estimate_rotation(
     pixels1: ArrayLike,
@@ -358,7 +358,7 @@ def find_degeneracy(
     Raises
     ------
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
     """
 def find_unmoved(
     pixels1: ArrayLike,
@@ -381,7 +381,7 @@ def find_unmoved(
     Raises
     ------
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
 
     Examples
     --------
@@ -389,14 +389,14 @@ def find_unmoved(
     >>> find_unmoved(pixels, pixels, [True] * 20)
     Degeneracy(kind='unmoved', num_explained=20, num_inliers=20)
     """
-def find_explaining_turn(
+def find_explaining_rotation(
     pixels1: ArrayLike,
     pixels2: ArrayLike,
     camera1: Camera,
     camera2: Camera,
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
-) -> ExplainingTurn | None:
+) -> ExplainingRotation | None:
     """Finds a rotation that explains nearly all inliers of calibrated views.
 
     Parameters
@@ -408,21 +408,21 @@ def find_explaining_turn(
 
     Returns
     -------
-    ExplainingTurn or None
+    ExplainingRotation or None
 
     Raises
     ------
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
     """
-def find_turn_and_focal(
+def find_rotation_and_focal(
     pixels1: ArrayLike,
     pixels2: ArrayLike,
     camera1: Camera,
     camera2: Camera,
     inliers: ArrayLike,
     **options: Unpack[option_types.TwoViewOptions],
-) -> TurnAndFocal | None:
+) -> RotationAndFocal | None:
     """Finds a rotation and a focal length change that explain nearly all inliers.
 
     Parameters
@@ -434,10 +434,10 @@ def find_turn_and_focal(
 
     Returns
     -------
-    TurnAndFocal or None
+    RotationAndFocal or None
 
     Raises
     ------
     ValueError
-        If ``ransac``, ``max_homography_share`` or ``min_essential_share`` is out of range.
+        If ``ransac``, ``max_homography_ratio`` or ``min_essential_ratio`` is out of range.
     """

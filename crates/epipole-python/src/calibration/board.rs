@@ -20,7 +20,7 @@ use pyo3::types::PyTuple;
 /// ----------
 /// pattern : str or dict
 ///     ``"chessboard"``, ``"circles"``, ``"asymmetric_circles"``,
-///     ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_share": 0.75}}`` or
+///     ``{"charuco": {"dictionary": "Aruco4x4_50", "marker_ratio": 0.75}}`` or
 ///     ``{"april_grid": {"spacing": 0.3}}``.
 /// columns, rows : int
 ///     Inner corners of a chessboard; squares of a ChArUco board; tags of an AprilGrid; disks per

@@ -318,7 +318,7 @@ pub(super) fn detect_markers(
 ///     If the result has more than 2**32 pixels.
 #[pyfunction]
 #[pyo3(signature = (board, camera, cam_from_board, noise=0.0, seed=0, *, progress=None))]
-pub(super) fn photograph_of_board<'py>(
+pub(super) fn render_board<'py>(
     py: Python<'py>,
     board: &Board,
     camera: &Camera,
@@ -330,7 +330,7 @@ pub(super) fn photograph_of_board<'py>(
     let (board, camera, pose) = (&board.board, &camera.0, &cam_from_board.0);
     require_size(camera.width, camera.height)?;
     let image = progress::run(py, progress, |monitor| {
-        calibration::photograph_of_board(board, camera, pose, noise, seed, monitor)
+        calibration::render_board(board, camera, pose, noise, seed, monitor)
     });
     from_gray(py, image?)
 }

@@ -25,7 +25,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Undistortion>()?;
     module.add_function(wrap_pyfunction!(find::find_board, module)?)?;
     module.add_function(wrap_pyfunction!(find::detect_markers, module)?)?;
-    module.add_function(wrap_pyfunction!(find::photograph_of_board, module)?)?;
+    module.add_function(wrap_pyfunction!(find::render_board, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::calibrate, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::calibrate_rig, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate::intrinsics_from_planes, module)?)

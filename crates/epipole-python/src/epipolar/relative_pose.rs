@@ -138,14 +138,14 @@ impl PoseWithFocal {
 #[pymethods]
 impl PoseWithFocal {
     /// Whether the matches determine the focal length.
-    fn tells_focal(&self, py: Python<'_>) -> PyResult<bool> {
+    fn constrains_focal(&self, py: Python<'_>) -> PyResult<bool> {
         let found = epipolar::PoseWithFocal {
             pose: self.pose.0,
             fundamental: crate::arrays::matrix("fundamental", self.fundamental.bind(py))?,
             focal_px: self.focal_px,
             focal_std_px: self.focal_std_px,
         };
-        Ok(found.tells_focal())
+        Ok(found.constrains_focal())
     }
 }
 

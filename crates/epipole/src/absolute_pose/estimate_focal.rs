@@ -22,7 +22,7 @@ const NAME: &str = "a camera pose with a focal length from points";
 
 impl AbsolutePoseWithFocal {
     /// Returns whether the points determine the focal length to within a tenth.
-    pub fn tells_focal(&self) -> bool {
+    pub fn constrains_focal(&self) -> bool {
         self.focal_std_px
             .is_some_and(|std_px| std_px < TELLING * self.focal_px)
     }
@@ -187,7 +187,7 @@ impl Estimator for AbsolutePoseFocalEstimator {
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
 /// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly
-/// as well, at a suitable distance, and [`AbsolutePoseWithFocal::tells_focal`] is false. The same
+/// as well, at a suitable distance, and [`AbsolutePoseWithFocal::constrains_focal`] is false. The same
 /// holds for points with nearly equal depths.
 ///
 /// # Errors
@@ -220,7 +220,7 @@ impl Estimator for AbsolutePoseFocalEstimator {
 /// let options = RansacOptions::default();
 /// let report = estimate_absolute_pose_and_focal(&points, &pixels, &k.principal_point(), &options, &mut ())?;
 /// assert_eq!(report.num_inliers, 30);
-/// assert!((report.model.focal_px - 700.0).abs() < 1e-3 && report.model.tells_focal());
+/// assert!((report.model.focal_px - 700.0).abs() < 1e-3 && report.model.constrains_focal());
 /// assert!(report.model.cam_from_world.rotation.angle_to(&cam_from_world.rotation) < 1e-6);
 /// # Ok(()) }
 /// ```

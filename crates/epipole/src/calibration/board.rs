@@ -26,7 +26,7 @@ pub enum Pattern {
         /// Dictionary of the markers.
         dictionary: MarkerDictionary,
         /// Ratio of the sides of marker and square, below 1.
-        marker_share: f64,
+        marker_ratio: f64,
     },
     /// AprilTags 36h11 with a border of two bits and black squares between their corners, as in
     /// Kalibr; the marks are the corners of the tags. The first tag is the lower left one.
@@ -97,7 +97,7 @@ impl Board {
     /// assert_eq!(grid.mark(4), Point2::new(0.02, 0.02));
     /// // 7 × 5 squares have 6 × 4 inner corners and 17 markers.
     /// let dictionary = MarkerDictionary::Aruco4x4_50;
-    /// let charuco = Board::new(Pattern::Charuco { dictionary, marker_share: 0.75 }, 7, 5, 0.03)?;
+    /// let charuco = Board::new(Pattern::Charuco { dictionary, marker_ratio: 0.75 }, 7, 5, 0.03)?;
     /// assert_eq!((charuco.columns(), charuco.rows()), (6, 4));
     /// // Tags of 8 cm at distances of 2 cm: the third corner is that of the second tag.
     /// let tags = Board::new(Pattern::AprilGrid { spacing: 0.25 }, 6, 6, 0.08)?;
@@ -186,13 +186,13 @@ fn check_markers(pattern: Pattern, columns: usize, rows: usize) -> Result<()> {
     let (dictionary, num_markers) = match pattern {
         Pattern::Charuco {
             dictionary,
-            marker_share,
+            marker_ratio,
         } => {
-            if !(marker_share > 0.0 && marker_share < 1.0) {
+            if !(marker_ratio > 0.0 && marker_ratio < 1.0) {
                 return Err(Error::OutOfRange {
-                    what: "the side of a board's markers as a share of its squares'",
+                    what: "the ratio of a board's marker side to its square side",
                     requirement: "between 0 and 1",
-                    value: marker_share,
+                    value: marker_ratio,
                 });
             }
             (dictionary, columns * rows / 2)
@@ -200,7 +200,7 @@ fn check_markers(pattern: Pattern, columns: usize, rows: usize) -> Result<()> {
         Pattern::AprilGrid { spacing } => {
             if !(spacing > 0.0 && spacing <= 1.0) {
                 return Err(Error::OutOfRange {
-                    what: "the distance between a board's tags as a share of their side",
+                    what: "the ratio of the gap between a board's tags to their side",
                     requirement: "greater than 0 and at most 1",
                     value: spacing,
                 });
@@ -309,9 +309,9 @@ mod tests {
             assert!(Board::new(Pattern::Chessboard, columns, rows, square_m).is_err());
         }
         assert!(Board::new(Pattern::AsymmetricCircles, 1, 6, 1.0).is_err());
-        let charuco = |marker_share: f64| Pattern::Charuco {
+        let charuco = |marker_ratio: f64| Pattern::Charuco {
             dictionary: MarkerDictionary::Aruco4x4_50,
-            marker_share,
+            marker_ratio,
         };
         assert!(Board::new(charuco(0.75), 10, 10, 1.0).is_ok());
         // 60 markers.

@@ -25,16 +25,16 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
         Pattern::Chessboard | Pattern::Circles | Pattern::AsymmetricCircles => None,
         Pattern::Charuco {
             dictionary,
-            marker_share,
+            marker_ratio,
         } => {
             // Squares from one step before the first mark to one step behind the last.
             let squares =
                 (0..=board.rows()).flat_map(|j| (0..=board.columns()).map(move |i| [i, j]));
             let white = squares.filter(|[i, j]| (i + j) % 2 == 1);
-            let margin = 0.5 * (1.0 - marker_share);
+            let margin = 0.5 * (1.0 - marker_ratio);
             let corners = white.map(|[i, j]| {
                 let first = Point2::new(i as f64 - 1.0 + margin, j as f64 - 1.0 + margin);
-                square(first, marker_share)
+                square(first, marker_ratio)
             });
             Some(BoardMarkers {
                 dictionary,
@@ -80,7 +80,7 @@ mod tests {
     fn charuco_markers_are_where_opencv_has_them() {
         let pattern = Pattern::Charuco {
             dictionary: MarkerDictionary::Aruco4x4_50,
-            marker_share: 0.5,
+            marker_ratio: 0.5,
         };
         let board = Board::new(pattern, 5, 4, 1.0).unwrap();
         let markers = board_markers(&board).unwrap();

@@ -12,7 +12,7 @@ use nalgebra::{Point2, Vector2};
 use std::collections::BTreeMap;
 
 /// Minimum fraction of the board's corners that must be found.
-const LEAST_SHARE: f64 = 0.5;
+const MIN_RATIO: f64 = 0.5;
 /// Minimum number of corners in each outermost row and column, to identify them unambiguously.
 const LEAST_IN_A_LINE: usize = 2;
 /// Cosine of the maximum angle, about 30°, between an edge at one corner and at the next.
@@ -314,7 +314,7 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
             };
             let inside = view.num_seen();
             if goes_on(&lattice, first, columns, rows)
-                || (inside as f64) < LEAST_SHARE * (rows * columns) as f64
+                || (inside as f64) < MIN_RATIO * (rows * columns) as f64
                 || !reaches_all_sides(&view, columns, rows)
             {
                 continue;

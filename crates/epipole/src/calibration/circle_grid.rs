@@ -12,7 +12,7 @@ use nalgebra::{Point2, Vector2};
 use std::collections::{BTreeMap, VecDeque};
 
 /// Minimum fraction of a grid's disks that must be found.
-const LEAST_SHARE: f64 = 0.6;
+const MIN_RATIO: f64 = 0.6;
 /// Maximum distance of a disk from the prediction by its neighbors, relative to a step.
 const NEAR: f64 = 0.3;
 /// Range of the ratio of areas of adjacent disks.
@@ -144,7 +144,7 @@ fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
         let view = BoardView {
             pixels: (0..board.num_marks()).map(at).collect(),
         };
-        let is_most = view.num_seen() as f64 >= LEAST_SHARE * board.num_marks() as f64;
+        let is_most = view.num_seen() as f64 >= MIN_RATIO * board.num_marks() as f64;
         (extent.size() == (columns, rows) && is_most).then_some(view)
     });
     let upright = views.min_by(|a, b| slope(a).total_cmp(&slope(b)));
@@ -198,7 +198,7 @@ fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
             })
             .collect();
         let view = BoardView { pixels };
-        if view.num_seen() as f64 >= LEAST_SHARE * board.num_marks() as f64 {
+        if view.num_seen() as f64 >= MIN_RATIO * board.num_marks() as f64 {
             return BoardSearch::Found(view);
         }
     }

@@ -102,7 +102,7 @@ mod tests {
     fn markers_have_their_black_cells() {
         let pattern = Pattern::Charuco {
             dictionary: MarkerDictionary::Aruco4x4_50,
-            marker_share: 0.75,
+            marker_ratio: 0.75,
         };
         let board = Board::new(pattern, 3, 3, 1.0).unwrap();
         let white_bits: usize = (0..4)

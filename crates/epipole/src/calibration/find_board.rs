@@ -170,7 +170,7 @@ fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::super::synthetic::{photograph_of_board, poses, true_view};
+    use super::super::synthetic::{poses, render_board, true_view};
     use super::*;
     use crate::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
     use crate::math::random::Random;
@@ -222,8 +222,7 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let image =
-                    photograph_of_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
+                let image = render_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
                 let search = find_board(&image, &board, &mut ()).unwrap();
                 let problem = search.problem(&board);
                 let Some(view) = search.view() else {
@@ -250,7 +249,7 @@ mod tests {
         let [camera, ..] = cameras();
         for pose in poses(&board, 3, 17.0, 3) {
             let truth = true_view(&board, &camera, &pose);
-            let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
+            let mut image = render_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
             for Luma([value]) in image.pixels_mut() {
                 *value = (100.0 + (*value * 15.0).round()) / 255.0;
             }
@@ -266,7 +265,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let truth = true_view(&board, &camera, &pose);
-        let mut image = photograph_of_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
+        let mut image = render_board(&board, &camera, &pose, 0.01, 1, &mut ()).unwrap();
         // A hand over about eight corners of the interior.
         let (a, b) = (truth.pixels[12].unwrap(), truth.pixels[33].unwrap());
         for (u, v, value) in image.enumerate_pixels_mut() {
@@ -292,7 +291,7 @@ mod tests {
         for (number, pose) in (poses(&board, 12, 15.0, 5).iter()).enumerate() {
             let truth = true_view(&board, &camera, pose);
             let mut image =
-                photograph_of_board(&board, &camera, pose, 0.01, number as u64, &mut ()).unwrap();
+                render_board(&board, &camera, pose, 0.01, number as u64, &mut ()).unwrap();
             let hand = truth.pixels[random.below(54)].unwrap();
             let mut corner = |quarter: u8| {
                 let angle_rad = f64::from(quarter) * FRAC_PI_2 + random.uniform(0.0, 1.2);
@@ -329,8 +328,7 @@ mod tests {
                     continue;
                 }
                 num_poses += 1;
-                let dark =
-                    photograph_of_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
+                let dark = render_board(&board, camera, pose, 0.01, seed as u64, &mut ()).unwrap();
                 let bright =
                     GrayImage32::from_fn(640, 480, |u, v| Luma([1.0 - dark.get_pixel(u, v).0[0]]));
                 for image in [dark, bright] {
@@ -363,8 +361,7 @@ mod tests {
         let [camera, ..] = cameras();
         for (seed, pose) in poses(&board, 4, 14.0, 6).iter().enumerate() {
             let truth = true_view(&board, &camera, pose);
-            let image =
-                photograph_of_board(&board, &camera, pose, 0.01, seed as u64, &mut ()).unwrap();
+            let image = render_board(&board, &camera, pose, 0.01, seed as u64, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             assert_eq!(view.num_seen(), 35);
             // The center of an ellipse differs from the projection of the disk's center.
@@ -372,7 +369,7 @@ mod tests {
             assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
         }
         let wider = Board::new(Pattern::Circles, 8, 5, 0.03).unwrap();
-        let image = photograph_of_board(
+        let image = render_board(
             &board,
             &camera,
             &poses(&board, 1, 14.0, 6)[0],
@@ -394,7 +391,7 @@ mod tests {
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
         let told = |pose: &RigidTransform, columns: usize, rows: usize| {
-            let image = photograph_of_board(&board, &camera, pose, 0.01, 2, &mut ()).unwrap();
+            let image = render_board(&board, &camera, pose, 0.01, 2, &mut ()).unwrap();
             let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
             let search = find_board(&image, &wanted, &mut ()).unwrap();
             assert!(!matches!(search, BoardSearch::Found(_)));

@@ -153,7 +153,7 @@ fn is_enough(view: &BoardView, columns: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::synthetic::{photograph_of_board, poses, true_view};
+    use super::super::synthetic::{poses, render_board, true_view};
     use super::super::{MarkerDictionary, Pattern, find_board};
     use super::*;
     use crate::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
@@ -165,7 +165,7 @@ mod tests {
 
     const CHARUCO: Pattern = Pattern::Charuco {
         dictionary: MarkerDictionary::Aruco4x4_50,
-        marker_share: 0.75,
+        marker_ratio: 0.75,
     };
 
     fn camera() -> Camera {
@@ -214,7 +214,7 @@ mod tests {
     fn sharp_boards_are_exact() {
         for (board, poses) in boards() {
             for pose in &poses {
-                let image = photograph_of_board(&board, &camera(), pose, 0.0, 0, &mut ()).unwrap();
+                let image = render_board(&board, &camera(), pose, 0.0, 0, &mut ()).unwrap();
                 // No lens is sharper.
                 let image = gaussian_blur(&image, 0.5, Border::Replicate, &mut ()).unwrap();
                 let (count, largest, rms) = search(&image, &board, pose);
@@ -241,7 +241,7 @@ mod tests {
             let nearer = Translation3::from(Vector3::new(0.03, -0.02, -0.45 * far.translation.z));
             let pose = nearer * far;
             let truth = true_view(&board, &camera, &pose);
-            let image = photograph_of_board(&board, &camera, &pose, 0.01, 0, &mut ()).unwrap();
+            let image = render_board(&board, &camera, &pose, 0.01, 0, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
             let missing = (truth.pixels.iter().zip(&view.pixels)).filter(|(truth, seen)| {
                 let is_inside =
@@ -261,7 +261,7 @@ mod tests {
                 * RigidTransform::translation(middle.x, middle.y, 0.0)
                 * RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 0.0, PI))
                 * RigidTransform::translation(-middle.x, -middle.y, 0.0);
-            let image = photograph_of_board(&board, &camera(), &turned, 0.01, 1, &mut ()).unwrap();
+            let image = render_board(&board, &camera(), &turned, 0.01, 1, &mut ()).unwrap();
             let (count, largest, _) = search(&image, &board, &turned);
             assert!(
                 count == board.num_marks() && largest < 0.2,
@@ -274,7 +274,7 @@ mod tests {
     fn blurred_boards_are_found() {
         for (board, poses) in boards() {
             for pose in &poses {
-                let sharp = photograph_of_board(&board, &camera(), pose, 0.01, 2, &mut ()).unwrap();
+                let sharp = render_board(&board, &camera(), pose, 0.01, 2, &mut ()).unwrap();
                 let image = gaussian_blur(&sharp, 2.0, Border::Replicate, &mut ()).unwrap();
                 let (count, largest, rms) = search(&image, &board, pose);
                 assert!(10 * count >= 9 * board.num_marks(), "{count}");
@@ -293,8 +293,7 @@ mod tests {
         for (board, poses) in boards() {
             let last = board.mark(board.num_marks() - 1);
             for (pose, axis) in poses.iter().zip([0, 1, 0]) {
-                let mut image =
-                    photograph_of_board(&board, &camera(), pose, 0.01, 3, &mut ()).unwrap();
+                let mut image = render_board(&board, &camera(), pose, 0.01, 3, &mut ()).unwrap();
                 let edge = Point2::new(0.4 * last.x, 0.4 * last.y);
                 // The edge of the occluder, on the board, as a line in the image.
                 let ends = match axis {
@@ -325,7 +324,7 @@ mod tests {
     #[test]
     fn another_board_is_told_by_its_markers() {
         let (board, poses) = &boards()[0];
-        let image = photograph_of_board(board, &camera(), &poses[0], 0.01, 4, &mut ()).unwrap();
+        let image = render_board(board, &camera(), &poses[0], 0.01, 4, &mut ()).unwrap();
         let wider = Board::new(CHARUCO, 8, 5, 0.03).unwrap();
         let search = find_board(&image, &wider, &mut ()).unwrap();
         let problem = search.problem(&wider).unwrap();
@@ -335,7 +334,7 @@ mod tests {
         );
         let other = Pattern::Charuco {
             dictionary: MarkerDictionary::Aruco6x6_250,
-            marker_share: 0.75,
+            marker_ratio: 0.75,
         };
         let other = Board::new(other, 7, 5, 0.03).unwrap();
         let problem = find_board(&image, &other, &mut ())

@@ -5,7 +5,7 @@
 //! 2. [`calibrate`] computes K, the lens and the board's poses from several of these, with the
 //!    uncertainty of each parameter.
 //! 3. [`calibrate_rig`] adds the pose of a second camera relative to the first.
-//! 4. [`photograph_of_board`] renders test images with exact ground truth.
+//! 4. [`render_board`] renders test images with exact ground truth.
 //! 5. [`Undistortion`] undistorts images.
 //!
 //! The frame of a board has its plane at z = 0, x along its rows, y along its columns, and the
@@ -16,7 +16,7 @@ mod blobs;
 mod board;
 mod board_markers;
 mod board_search;
-mod board_turns;
+mod board_symmetries;
 mod calibrate;
 mod calibrated_view;
 mod chessboard;
@@ -51,5 +51,5 @@ pub use drawing::BoardDrawing;
 pub use find_board::find_board;
 pub use markers::{Marker, MarkerDictionary, MarkerOptions, detect_markers};
 pub use rig::{RigCalibration, calibrate_rig};
-pub use synthetic::photograph_of_board;
+pub use synthetic::render_board;
 pub use undistort::{Keep, Undistortion};

@@ -113,15 +113,15 @@ impl Problem {
         if o.eye == 0 {
             return Place {
                 turned,
-                turned_by_rig: in_first,
+                rotated_by_rig: in_first,
                 in_cam: in_first,
             };
         }
-        let turned_by_rig = state.rig.rotated(&Point3::from(in_first));
+        let rotated_by_rig = state.rig.rotated(&Point3::from(in_first));
         Place {
             turned,
-            turned_by_rig,
-            in_cam: turned_by_rig + state.rig.translation,
+            rotated_by_rig,
+            in_cam: rotated_by_rig + state.rig.translation,
         }
     }
 
@@ -141,7 +141,7 @@ impl Problem {
 
 struct Place {
     turned: Vector3<f64>,
-    turned_by_rig: Vector3<f64>,
+    rotated_by_rig: Vector3<f64>,
     in_cam: Vector3<f64>,
 }
 
@@ -206,7 +206,7 @@ impl BundleProblem<6, SHARED> for Problem {
             }
             let mut by_p: Vector3<f64> = by_point.row(row).transpose() * focal;
             if o.eye == 1 {
-                let (by_rig, by_first) = state.rig.derivatives(&place.turned_by_rig, &by_p);
+                let (by_rig, by_first) = state.rig.derivatives(&place.rotated_by_rig, &by_p);
                 shared[..6].copy_from_slice(&by_rig);
                 by_p = Vector3::from(by_first);
             }

@@ -1,6 +1,6 @@
 //! Relative pose of two calibrated cameras.
 
-use super::board_turns::board_turns;
+use super::board_symmetries::board_symmetries;
 use super::calibrate::{WHAT, check, marks, observations};
 use super::problem::{Problem, SHARED, State, camera_numbers, pose_state, strict};
 use super::start::board_pose;
@@ -116,7 +116,7 @@ pub fn calibrate_rig(
         ]);
     }
     // For each pair, the motion for each rotation of the right board.
-    let turns = board_turns(board);
+    let turns = board_symmetries(board);
     let motions: Vec<Vec<RigidTransform>> = poses
         .iter()
         .map(|[l, r]| {
@@ -220,7 +220,7 @@ mod tests {
             RigidTransform::new(Vector3::new(0.12, 0.01, 0.0), Vector3::new(0.02, 0.0, 3.1));
         for (columns, rows) in [(7, 5), (6, 6)] {
             let board = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
-            let turns = board_turns(&board);
+            let turns = board_symmetries(&board);
             let poses = poses(&board, 6, 15.0, 2);
             let left: Vec<_> = (poses.iter())
                 .map(|pose| Some(true_view(&board, &camera, pose)))

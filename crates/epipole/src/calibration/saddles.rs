@@ -26,7 +26,7 @@ const LEAST_CONTRAST: f64 = 0.06;
 /// Maximum difference of opposite squares, relative to the contrast.
 const MOST_UNEVEN: f64 = 0.3;
 /// Minimum response, relative to that of a sharp corner of full contrast after the blur.
-const LEAST_SHARE: f32 = 2e-4;
+const MIN_RATIO: f32 = 2e-4;
 
 /// The image in which to find corners.
 pub(super) struct SaddleImage {
@@ -64,7 +64,7 @@ impl SaddleImage {
         }
         let strongest = response.iter().fold(0.0_f32, |most, r| most.max(*r));
         let response = from_vec(width, height, response);
-        let threshold = (0.01 * strongest).max(LEAST_SHARE * 0.02);
+        let threshold = (0.01 * strongest).max(MIN_RATIO * 0.02);
         let part = &mut Part::new(monitor, 0.0, 0.4);
         let peaks = non_maximum_suppression(&response, 2, threshold, part)?;
         let mut saddles: Vec<Saddle> = Vec::new();
@@ -235,12 +235,12 @@ impl SaddleImage {
 pub(super) fn check_range(image: &GrayImage32) -> Result<()> {
     match image.as_raw().iter().find(|v| !(-0.5..=1.5).contains(*v)) {
         Some(value) if value.is_finite() => Err(Error::OutOfRange {
-            what: "the gray values of a photograph of a board",
+            what: "the gray values of a board image",
             requirement: "from 0 to 1",
             value: f64::from(*value),
         }),
         Some(_) => Err(Error::NotFinite {
-            what: "every pixel of a photograph",
+            what: "every pixel of an image",
         }),
         None => Ok(()),
     }

@@ -80,7 +80,7 @@ impl Sheet {
 ///
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
-/// use epipole::calibration::{Board, Pattern, find_board, photograph_of_board};
+/// use epipole::calibration::{Board, Pattern, find_board, render_board};
 /// use epipole::camera::{Camera, Intrinsics, Lens, LensKind, RigidTransform};
 /// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
 /// let camera = Camera {
@@ -91,13 +91,13 @@ impl Sheet {
 /// };
 /// // The corner in row 1 and column 2 is 2 cm to the right of the first and 2 cm below it.
 /// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
-/// let image = photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ())?;
+/// let image = render_board(&board, &camera, &pose, 0.0, 0, &mut ())?;
 /// let found = find_board(&image, &board, &mut ())?.view().expect("a board");
 /// let seen = found.pixels[7].expect("a corner");
 /// assert!((seen - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
 /// # Ok(()) }
 /// ```
-pub fn photograph_of_board(
+pub fn render_board(
     board: &Board,
     camera: &Camera,
     cam_from_board: &RigidTransform,
@@ -235,8 +235,7 @@ mod tests {
             for tip_rad in [0.0, 0.35, -0.5] {
                 for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
                     let pose = pose(&board, f64::to_radians(degrees), tip_rad, offset_px);
-                    let image =
-                        photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
+                    let image = render_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
                     // The edges above and below the middle corner, along the board's y.
                     let corner = |j: f64| {
                         let place = Point3::new(SQUARE_M, j * SQUARE_M, 0.0);
@@ -270,7 +269,7 @@ mod tests {
         let camera = camera();
         for offset_px in [0.0, 0.13, 0.37, 0.5, 0.71] {
             let pose = pose(&board, 0.7, 0.0, offset_px);
-            let image = photograph_of_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
+            let image = render_board(&board, &camera, &pose, 0.0, 0, &mut ()).unwrap();
             let mark = board.mark(4);
             let center = camera
                 .project(&(pose * Point3::new(mark.x, mark.y, 0.0)))

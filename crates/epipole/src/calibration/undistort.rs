@@ -66,7 +66,7 @@ impl Undistortion {
         let (width, height) = (camera.width, camera.height);
         if width < 2 || height < 2 {
             return Err(Error::OutOfRange {
-                what: "the photograph's shorter side in pixels",
+                what: "the image's shorter side in pixels",
                 requirement: "at least 2",
                 value: f64::from(width.min(height)),
             });
@@ -77,7 +77,7 @@ impl Undistortion {
             flat(&ray).or_else(|clipped| match keep {
                 Keep::Valid => Ok(clipped),
                 Keep::All => Err(Error::Degenerate {
-                    what: "an undistorted photograph",
+                    what: "an undistorted image",
                     why: "the lens sees more than 80° to a side, and no flat picture can keep that; keep what is \
                           valid instead",
                 }),
@@ -122,7 +122,7 @@ impl Undistortion {
 }
 
 const FOLDS: Error = Error::Degenerate {
-    what: "an undistorted photograph",
+    what: "an undistorted image",
     why: "the lens model folds inside of the picture, far from its edges; calibrate once more, with boards up to the \
           edges, or with another model of the lens",
 };

@@ -231,7 +231,7 @@ fn solve(
     if !condition_number.is_finite() || condition_number > 1e13 {
         return Err(Error::Degenerate {
             what: "the fundamental matrix",
-            why: "the matches fit many: they lie on a plane or a line, or the camera only turned",
+            why: "the matches fit many: they lie on a plane or a line, or the camera only rotated",
         });
     }
     let solution = Matrix3::from_row_slice(&vectors[8]);

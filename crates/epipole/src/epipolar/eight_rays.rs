@@ -71,7 +71,7 @@ pub fn essential_8point(rays1: &[Vector3<f64>], rays2: &[Vector3<f64>]) -> Resul
 
 const LEFT_OPEN: Error = Error::Degenerate {
     what: "the essential matrix",
-    why: "the rays fit many: they lie in a plane or a line, or the camera only turned",
+    why: "the rays fit many: they lie in a plane or a line, or the camera only rotated",
 };
 
 /// Hartley's normalization for rays of any field of view: returns the symmetric matrix that

@@ -21,7 +21,7 @@ use nalgebra::{Matrix3, Point2};
 ///
 /// Of the four motions that the essential matrix allows, returns the one with the most inliers in
 /// front of both cameras. If the camera hardly moved, the direction is meaningless;
-/// [`find_explaining_turn`](crate::two_view::find_explaining_turn) detects this.
+/// [`find_explaining_rotation`](crate::two_view::find_explaining_rotation) detects this.
 ///
 /// # Errors
 /// As [`EssentialEstimator::new`] and [`ransac`].

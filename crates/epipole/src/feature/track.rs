@@ -122,12 +122,12 @@ pub fn track_lucas_kanade(
     }
     require_finite(first)?;
     require_finite(second)?;
-    let mut part = Part::new(monitor, 0.0, PYRAMIDS_SHARE);
+    let mut part = Part::new(monitor, 0.0, PYRAMID_WORK_RATIO);
     let levels = [
         levels(first, options, &mut Part::new(&mut part, 0.0, 0.5))?,
         levels(second, options, &mut Part::new(&mut part, 0.5, 1.0))?,
     ];
-    let part = &mut Part::new(monitor, PYRAMIDS_SHARE, 1.0);
+    let part = &mut Part::new(monitor, PYRAMID_WORK_RATIO, 1.0);
     monitored::map(points, Stage::Tracking, part, |point| {
         let (there, residual) = follow(&levels[0], &levels[1], point, options)?;
         let forward_backward_px = match options.max_forward_backward_px {
@@ -150,7 +150,7 @@ pub fn track_lucas_kanade(
 }
 
 /// Progress after the pyramids, if there are many points.
-const PYRAMIDS_SHARE: f32 = 0.1;
+const PYRAMID_WORK_RATIO: f32 = 0.1;
 
 struct Level {
     image: GrayImage32,

@@ -481,8 +481,8 @@ mod tests {
         // Far outside, a replicated border no longer changes.
         let surface = shift_surface(&image, (0, 0), 1, 100, border).unwrap();
         assert_eq!(surface.at(-50, -50), surface.at(-100, -100));
-        let mut spoiled = image;
-        spoiled.put_pixel(3, 3, image::Luma([f32::NAN]));
-        assert!(shift_surface(&spoiled, (20, 20), 1, 1, border).is_err());
+        let mut corrupted = image;
+        corrupted.put_pixel(3, 3, image::Luma([f32::NAN]));
+        assert!(shift_surface(&corrupted, (20, 20), 1, 1, border).is_err());
     }
 }

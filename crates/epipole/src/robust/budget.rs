@@ -31,7 +31,7 @@ pub fn num_trials_with_replacement(
 ) -> Result<u64> {
     if !(0.0..=1.0).contains(&inlier_ratio) {
         return Err(Error::OutOfRange {
-            what: "the share of inliers",
+            what: "the inlier ratio",
             requirement: "between 0 and 1",
             value: inlier_ratio,
         });

@@ -11,7 +11,7 @@ use nalgebra::{Point2, SVector, Vector2};
 ///
 /// The minimum is that of Levenberg–Marquardt from the least-squares line. A point farther off than
 /// `width_px` pulls with a constant force, so a single outlier has limited effect; many consistent
-/// outliers, or one with a long lever far along the line, can still spoil the fit.
+/// outliers, or one with a long lever far along the line, can still corrupt the fit.
 ///
 /// * `points`: at least two, pixels
 /// * `width_px`: distances up to this count as in least squares; 1.345 times the standard deviation

@@ -9,7 +9,7 @@ use crate::progress::{Monitor, Stage, report};
 use crate::{Error, Result};
 
 /// Name of the result in [`Error::TooFew`].
-const OF_KNOWN_POSES: &str = "points from photographs with known poses";
+const OF_KNOWN_POSES: &str = "points from images with known poses";
 
 /// Triangulates points from matches between images with known poses; the cameras do not change.
 ///
@@ -79,7 +79,7 @@ pub fn triangulate_tracks(
 fn check_poses(num_images: usize, cam_from_world: &[Option<RigidTransform>]) -> Result<()> {
     if cam_from_world.len() != num_images {
         return Err(Error::SizeMismatch {
-            what: "the lists of photographs and of their poses",
+            what: "the lists of images and of their poses",
             first: num_images,
             second: cam_from_world.len(),
         });

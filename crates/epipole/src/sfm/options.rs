@@ -81,7 +81,7 @@ impl Default for SfmOptions {
 }
 
 /// Name of the result in [`TooFew`](crate::Error::TooFew).
-pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion from photographs";
+pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion";
 
 /// Checks images, cameras and options; returns the camera of each image.
 ///
@@ -152,7 +152,7 @@ pub(super) fn check(
     for (image, camera) in images.iter().zip(&cameras) {
         if *lens_of.entry(image.lens).or_insert(camera.lens) != camera.lens {
             return Err(Error::Degenerate {
-                what: "a lens that photographs share",
+                what: "a lens that images share",
                 why: "their coefficients differ; give each its own number in SfmImage::lens",
             });
         }
@@ -167,7 +167,7 @@ pub(super) fn check_count(num_photos: usize, cameras: &[Camera]) -> Result<()> {
         return Ok(());
     }
     Err(Error::SizeMismatch {
-        what: "the lists of photographs and of their cameras",
+        what: "the lists of images and of their cameras",
         first: num_photos,
         second: cameras.len(),
     })

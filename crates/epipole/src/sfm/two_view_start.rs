@@ -11,7 +11,7 @@ use crate::homography::estimate_homography;
 use crate::progress::{Monitor, Part, Stage, report};
 use crate::robust::{RansacOptions, RansacReport};
 use crate::two_view::{
-    TwoViewOptions, find_explaining_turn, find_plane_through_lenses, find_turn_and_focal,
+    TwoViewOptions, find_explaining_rotation, find_plane_through_lenses, find_rotation_and_focal,
 };
 use crate::{Error, Result};
 use nalgebra::{Matrix3, Point2};
@@ -174,12 +174,12 @@ pub(super) fn verify_pair(
     let rest = &mut Part::new(monitor, 0.6, 1.0);
     let flat = find_plane(&pixels1, &pixels2, cameras, &judging, rest)?;
     // A rotation gives no depth, and with a wrong focal length it passes for a plane.
-    let only_turned = flat.as_ref().is_some_and(|flat| {
-        find_explaining_turn(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
+    let rotation_only = flat.as_ref().is_some_and(|flat| {
+        find_explaining_rotation(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
             .is_ok_and(|turn| turn.is_some())
             || turned_otherwise([&pixels1, &pixels2], cameras, &flat.inliers, &judging)
     });
-    let median_angle_rad = match only_turned {
+    let median_angle_rad = match rotation_only {
         true => 0.0,
         false => angles.get(angles.len() / 2).copied().unwrap_or(0.0),
     };
@@ -217,7 +217,7 @@ fn find_plane(
         ));
     }
     let search = estimate_homography(pixels1, pixels2, &judging.ransac, monitor);
-    let needed = judging.max_homography_share * pixels1.len() as f64;
+    let needed = judging.max_homography_ratio * pixels1.len() as f64;
     Ok(unless_canceled(search)?.filter(|flat| flat.num_inliers as f64 > needed))
 }
 
@@ -228,6 +228,6 @@ fn turned_otherwise(
     on_plane: &[bool],
     judging: &TwoViewOptions,
 ) -> bool {
-    find_turn_and_focal(pixels1, pixels2, cameras, on_plane, judging)
+    find_rotation_and_focal(pixels1, pixels2, cameras, on_plane, judging)
         .is_ok_and(|turn| turn.is_some())
 }

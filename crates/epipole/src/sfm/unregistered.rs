@@ -20,7 +20,7 @@ pub enum WhyUnregistered {
         needed: usize,
     },
     /// No other image resembles it.
-    #[error("no other photograph has more than {most} matches with it, and {needed} are needed")]
+    #[error("no other image has more than {most} matches with it, and {needed} are needed")]
     FewMatches {
         /// Number of matches with the image that has most.
         most: usize,
@@ -29,12 +29,12 @@ pub enum WhyUnregistered {
     },
     /// Its matches are between similar but different objects, or too few.
     #[error(
-        "its matches with other photographs agree on no motion of the camera: the pictures may show different things that look alike"
+        "its matches with other images fit no camera motion: the images may show different objects that look alike"
     )]
     NoMotion,
     /// It could have started a reconstruction, but the cameras had no baseline.
     #[error(
-        "it was taken from nearly the same place as the photographs that match it, so that nothing can be said about depth"
+        "it was taken from nearly the same position as the images that match it, so depth is undetermined"
     )]
     NoBaseline,
     /// It could have started a reconstruction with an image that matches it, but no points

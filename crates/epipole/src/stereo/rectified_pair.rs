@@ -72,7 +72,7 @@ impl Rectification {
 fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
     if disparities.len() < MIN_POINTS {
         return Err(Error::TooFew {
-            what: "a range of disparities from points that both photographs show",
+            what: "a range of disparities from points visible in both images",
             needed: MIN_POINTS,
             got: disparities.len(),
         });
@@ -124,8 +124,8 @@ impl RectifiedPair {
     ) -> Result<Self> {
         let sizes = photographs.map(RgbImage::dimensions);
         for (what, first, second) in [
-            ("the rows of the two photographs", sizes[0].0, sizes[1].0),
-            ("the columns of the two photographs", sizes[0].1, sizes[1].1),
+            ("the rows of the two images", sizes[0].0, sizes[1].0),
+            ("the columns of the two images", sizes[0].1, sizes[1].1),
         ] {
             if first != second {
                 return Err(Error::SizeMismatch {

@@ -117,7 +117,7 @@ fn check(pixels1: &[Point2<f64>], pixels2: &[Point2<f64>], width: u32, height: u
     }
     if width < 2 || height < 2 {
         return Err(Error::OutOfRange {
-            what: "the shorter side of the photographs",
+            what: "the shorter side of the images",
             requirement: "at least 2 pixels",
             value: f64::from(width.min(height)),
         });
@@ -164,7 +164,7 @@ fn send_epipole_to_infinity(
             if offset.norm() < 1.1 * middle.norm() {
                 return Err(Error::Degenerate {
                     what: "a rectification",
-                    why: "the epipole lies in the photograph",
+                    why: "the epipole lies in the image",
                 });
             }
             (offset.normalize(), 1.0 / offset.norm())
@@ -268,7 +268,7 @@ fn outline(h: &Matrix3<f64>, width: u32, height: u32) -> Result<PixelRect> {
     if !one_side {
         return Err(Error::Degenerate {
             what: "a rectification",
-            why: "the epipole lies in the photograph",
+            why: "the epipole lies in the image",
         });
     }
     let mut rect = PixelRect {

@@ -44,7 +44,7 @@ impl Turns {
 }
 
 /// Residuals of matches in their second photo, pixels.
-pub(super) struct TurnsProblem {
+pub(super) struct RotationsProblem {
     pub(super) matches: Vec<PixelMatch>,
     pub(super) turns: Turns,
     pub(super) is_focal_held: bool,
@@ -64,7 +64,7 @@ struct Seen {
     about: Vector2<f64>,
 }
 
-impl TurnsProblem {
+impl RotationsProblem {
     pub(super) fn num_parameters(&self) -> usize {
         3 * (self.turns.intrinsics.len() - 1) + 1
     }
@@ -118,7 +118,7 @@ fn left_jacobian(w: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::identity() + a * cross + b * cross * cross
 }
 
-impl DenseProblem for TurnsProblem {
+impl DenseProblem for RotationsProblem {
     fn num_residuals(&self) -> usize {
         2 * self.matches.len()
     }
@@ -186,7 +186,7 @@ mod tests {
             .collect();
         let parameters = DVector::from_fn(7, |n, _| 0.1 * (n as f64 - 3.0));
         let mut pixel = || Point2::new(random.uniform(200.0, 440.0), random.uniform(140.0, 340.0));
-        let problem = TurnsProblem {
+        let problem = RotationsProblem {
             matches: [[0, 1], [2, 1], [1, 0], [2, 0], [1, 2]]
                 .map(|images| PixelMatch {
                     images,

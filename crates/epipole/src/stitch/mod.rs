@@ -16,9 +16,9 @@ mod level;
 mod overlap;
 mod panorama;
 mod render;
+mod rotations;
 mod surface;
 mod tree;
-mod turns;
 
 pub use flat::chain_homographies;
 pub use overlap::{Overlap, OverlapOptions, find_overlap};

@@ -1,8 +1,8 @@
 //! Alignment of photos in a panorama.
 
 use super::overlap::Overlap;
+use super::rotations::estimate_rotations;
 use super::tree::largest_tree;
-use super::turns::estimate_turns;
 use crate::Result;
 use crate::camera::Intrinsics;
 use crate::math::svd3;
@@ -10,7 +10,7 @@ use crate::progress::Monitor;
 use nalgebra::{Matrix3, Vector3};
 
 /// Minimum spread of horizontal axes that determines the vertical, relative to the largest.
-const TELLS_UP: f64 = 1e-4;
+const CONSTRAINS_UP: f64 = 1e-4;
 
 /// Photos in the frame of a panorama, which looks along z with y down.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +68,7 @@ pub fn estimate_panorama(
 ) -> Result<Panorama> {
     let tree = largest_tree(intrinsics.len(), overlaps)?;
     let (rotations, focal_factor) =
-        estimate_turns(intrinsics, overlaps, &tree, find_focal, monitor)?;
+        estimate_rotations(intrinsics, overlaps, &tree, find_focal, monitor)?;
     let level = leveled(&rotations);
     let rotations: Vec<_> = rotations
         .iter()
@@ -102,8 +102,8 @@ fn leveled(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
     let spread: Matrix3<f64> = axis(0).iter().map(|x| x * x.transpose()).sum();
     let mean = |row| axis(row).iter().sum::<Vector3<f64>>();
     let svd = svd3(&spread);
-    let tells_up = svd.singular_values[1] > TELLS_UP * svd.singular_values[0];
-    let down = match tells_up {
+    let constrains_up = svd.singular_values[1] > CONSTRAINS_UP * svd.singular_values[0];
+    let down = match constrains_up {
         true => svd.v.column(2).into_owned(),
         false => mean(1),
     };

@@ -1,6 +1,6 @@
 //! Choice of the model for two views.
 
-use super::explaining_turn::{ExplainingTurn, homography_of_turn};
+use super::explaining_rotation::{ExplainingRotation, homography_of_rotation};
 use super::motion::{median_angle, planar_motions, pose_of_fundamental};
 use super::pairs::Pairs;
 use super::report::{Configuration, TwoViewModel, TwoViewReport};
@@ -73,7 +73,7 @@ pub fn estimate_two_view(
         (Ok(f), Ok(h)) => {
             f.could_be_chance() && !h.could_be_chance()
                 || pairs.explained_share(&h.model, &f.inliers, options)
-                    >= options.max_homography_share
+                    >= options.max_homography_ratio
         }
     };
     searches.check()?;
@@ -169,21 +169,21 @@ pub fn estimate_two_view_calibrated(
     };
     let explains = |matrix: &Matrix3<f64>| {
         epipolar.is_none_or(|inliers| {
-            pairs.explained_share(matrix, inliers, options) >= options.max_homography_share
+            pairs.explained_share(matrix, inliers, options) >= options.max_homography_ratio
         })
     };
     // A homography may explain more than a rotation, even if no epipolar geometry was found.
-    let num_needed = options.max_homography_share * support(&homography) as f64;
+    let num_needed = options.max_homography_ratio * support(&homography) as f64;
     if let Ok(report) = &rotation
         && report.num_unique_inliers as f64 >= num_needed
-        && let Some(turn) = ExplainingTurn::new(
+        && let Some(turn) = ExplainingRotation::new(
             report,
             [k1, k2],
             epipolar.iter().flat_map(|mask| pairs.different_among(mask)),
             options,
         )
     {
-        let matrix = homography_of_turn(&report.model, [k1, k2]);
+        let matrix = homography_of_rotation(&report.model, [k1, k2]);
         found.model = TwoViewModel::Homography(matrix / matrix.norm());
         found.configuration = Configuration::Panoramic;
         found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
@@ -207,7 +207,7 @@ pub fn estimate_two_view_calibrated(
         found.other_cam2_from_cam1 = other.as_ref().map(RelativePose::cam2_from_cam1);
         found.fundamental = best.and_then(|pose| pose.fundamental(k1, k2).ok());
         found.take_homography(&pairs, report, options);
-    } else if num_e as f64 >= options.min_essential_share * num_f as f64
+    } else if num_e as f64 >= options.min_essential_ratio * num_f as f64
         && let Ok(report) = &essential
     {
         found.model = TwoViewModel::Essential(report.model.essential());

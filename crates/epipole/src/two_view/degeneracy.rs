@@ -35,7 +35,7 @@ pub enum Degeneracy {
 ///
 /// * `pixels1`, `pixels2`: the matches from which F was estimated
 /// * `inliers`: for each match, whether it is an inlier of F
-/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
+/// * `options`: [`TwoViewOptions::max_homography_ratio`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`] should be that of F. The threshold of the homography is 1.25
 ///   √2 times as large, since its errors have two dimensions and the noise of both images
 ///
@@ -138,7 +138,7 @@ pub fn find_unmoved(
 }
 
 fn nearly_all(count: usize, num_inliers: usize, options: &TwoViewOptions) -> bool {
-    num_inliers > 0 && count as f64 >= options.max_homography_share * num_inliers as f64
+    num_inliers > 0 && count as f64 >= options.max_homography_ratio * num_inliers as f64
 }
 
 #[cfg(test)]

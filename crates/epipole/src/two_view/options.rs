@@ -31,9 +31,9 @@ pub struct TwoViewOptions {
     pub min_num_inliers: usize,
     /// Minimum fraction of epipolar inliers that a homography must explain for the scene to count
     /// as a plane or pure rotation. Above 1 none does. 0.8.
-    pub max_homography_share: f64,
+    pub max_homography_ratio: f64,
     /// Minimum ratio of E's inliers to F's for E to be preferred. 0.95.
-    pub min_essential_share: f64,
+    pub min_essential_ratio: f64,
 }
 
 impl Default for TwoViewOptions {
@@ -41,8 +41,8 @@ impl Default for TwoViewOptions {
         Self {
             ransac: RansacOptions::default(),
             min_num_inliers: 15,
-            max_homography_share: 0.8,
-            min_essential_share: 0.95,
+            max_homography_ratio: 0.8,
+            min_essential_ratio: 0.95,
         }
     }
 }
@@ -61,12 +61,12 @@ impl TwoViewOptions {
         self.ransac.check()?;
         for (what, value) in [
             (
-                "the share of inliers that a homography must explain",
-                self.max_homography_share,
+                "the ratio of inliers that a homography must explain",
+                self.max_homography_ratio,
             ),
             (
-                "the share of F's inliers that E must have",
-                self.min_essential_share,
+                "the ratio of F's inliers that E must have",
+                self.min_essential_ratio,
             ),
         ] {
             if value.is_nan() || value < 0.0 {

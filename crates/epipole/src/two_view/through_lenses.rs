@@ -3,7 +3,7 @@
 use super::TwoViewOptions;
 use super::motion::{best_and_rival, in_front_of_plane};
 use super::report::{Configuration, TwoViewModel, TwoViewReport};
-use super::turn::find_explaining_turn;
+use super::rotation_search::find_explaining_rotation;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics, Observation, RigidTransform};
 use crate::epipolar::{ObservedMatches, estimate_relative_pose, tangent_sampson_px};
@@ -31,7 +31,7 @@ pub(crate) fn find_plane_through_lenses(
         ..in_two_dimensions
     };
     let found = estimate_homography_calibrated(pixels1, pixels2, cameras, &ransac, &mut ()).ok()?;
-    let needed = options.max_homography_share * pixels1.len() as f64;
+    let needed = options.max_homography_ratio * pixels1.len() as f64;
     (found.num_inliers as f64 >= needed).then_some(found)
 }
 
@@ -79,7 +79,7 @@ pub(super) fn estimate_through_lenses(
     let of_motion = Inliers::new(pixels1, pixels2, cameras, &found.inliers)?;
     let [in1, in2] = &of_motion.pixels;
     let all = vec![true; in1.len()];
-    let turn = find_explaining_turn(in1, in2, cameras, &all, options)?;
+    let turn = find_explaining_rotation(in1, in2, cameras, &all, options)?;
     let plane = find_plane_through_lenses(in1, in2, cameras, options);
     let flat = if let Some(turn) = turn {
         found.configuration = Configuration::Panoramic;

@@ -133,7 +133,7 @@ fn exact_points_give_the_truth() {
             .unwrap();
             let found = errors(&scene, report.model.focal_px, &report.model.cam_from_world);
             assert!(found.0 < 1e-4 && found.1 < 1e-4, "{found:?}");
-            assert!(report.model.tells_focal());
+            assert!(report.model.constrains_focal());
         }
     }
 }
@@ -160,7 +160,7 @@ fn a_plane_in_front_tells_nothing() {
         &RansacOptions::default(),
         &mut (),
     ) {
-        Ok(report) => assert!(!report.model.tells_focal(), "{:?}", report.model),
+        Ok(report) => assert!(!report.model.constrains_focal(), "{:?}", report.model),
         Err(error) => assert!(matches!(error, Error::NoConsensus { .. }), "{error}"),
     }
 }

@@ -182,12 +182,12 @@ fn it_is_said_where_the_focal_length_is_open() {
         let open =
             (found.model.focal_std_px).is_none_or(|std_px| std_px > 0.1 * found.model.focal_px);
         assert!(
-            open && !found.model.tells_focal(),
+            open && !found.model.constrains_focal(),
             "{turn_rad}: {:?}",
             found.model
         );
     }
-    assert!(scene(3, 60, 0.5).estimate().model.tells_focal());
+    assert!(scene(3, 60, 0.5).estimate().model.constrains_focal());
 }
 
 #[test]

@@ -70,7 +70,7 @@ fn one_wrong_view_does_not_matter() {
     ] {
         for count in [3, 4, 6, 10, 20] {
             let mut random = Random::new(5);
-            let mut near_truth = 0;
+            let mut close_to_truth = 0;
             for _ in 0..200 {
                 let cameras = row_of_cameras(&mut random, count);
                 let truth = point(&mut random);
@@ -83,7 +83,7 @@ fn one_wrong_view_does_not_matter() {
                 }
                 let found = triangulate_nview(&cameras, &seen, loss).unwrap();
                 let off = (found.point_in_world - truth).norm();
-                near_truth += usize::from(off < 0.5);
+                close_to_truth += usize::from(off < 0.5);
                 // As good a minimum as the right views alone lead to.
                 let (mut right_cameras, mut right_seen) = (cameras.clone(), seen.clone());
                 right_cameras.remove(wrong);
@@ -100,7 +100,10 @@ fn one_wrong_view_does_not_matter() {
                 assert!(ours < theirs + 1e-6, "{loss:?} {count}: {ours} {theirs}");
             }
             // Two views half a unit apart are as good as that, not always better.
-            assert!(near_truth >= 195, "{loss:?} {count}: {near_truth} of 200");
+            assert!(
+                close_to_truth >= 195,
+                "{loss:?} {count}: {close_to_truth} of 200"
+            );
         }
     }
 }

@@ -337,7 +337,7 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
         "{error:?}"
     );
     for share in [-0.1, f64::NAN] {
-        let options = TwoViewOptions::default().with_max_homography_share(share);
+        let options = TwoViewOptions::default().with_max_homography_ratio(share);
         assert!(
             matches!(options.check(), Err(Error::OutOfRange { .. })),
             "{share}"

@@ -39,7 +39,7 @@ fn scene(
     random: &mut Random,
     shape: Shape,
     num_points: usize,
-    inlier_share: f64,
+    inlier_ratio: f64,
     noise_px: f64,
 ) -> Scene {
     let mut within = |low, high| random.uniform(low, high);
@@ -48,7 +48,7 @@ fn scene(
     let [roll, pitch, yaw] = [(); 3].map(|()| within(-30.0, 30.0).to_radians());
     let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
     let mut shift = Vector3::new(within(-0.5, 0.5), within(-0.5, 0.5), within(1.0, 2.0));
-    let num_true = (inlier_share * num_points as f64) as usize;
+    let num_true = (inlier_ratio * num_points as f64) as usize;
     let mut points: Vec<Point3<f64>> = (0..num_true)
         .map(|_| {
             let depth = match shape {
@@ -103,8 +103,8 @@ fn shares(first: f64) -> impl Iterator<Item = f64> {
 }
 
 /// Number of samples that theory asks for, and some more.
-fn budget(inlier_share: f64, sample_size: i32, tolerance: f64) -> usize {
-    let all_true = libm::pow(inlier_share, f64::from(sample_size));
+fn budget(inlier_ratio: f64, sample_size: i32, tolerance: f64) -> usize {
+    let all_true = libm::pow(inlier_ratio, f64::from(sample_size));
     (tolerance * libm::log(1.0 - CONFIDENCE) / libm::log1p(-all_true)) as usize
 }
 

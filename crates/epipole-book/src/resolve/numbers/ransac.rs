@@ -41,8 +41,8 @@ pub(super) const ENTRIES: &[Entry] = &[
         parameters: &["s", "w", "n"],
         summary: "chance that one of n samples holds inliers only, percent",
         compute: |a| {
-            let all_spoiled = libm::exp(a.get("n") * libm::log1p(-all_inliers(a)?));
-            Ok(Real(100.0 * (1.0 - all_spoiled), 1))
+            let all_corrupted = libm::exp(a.get("n") * libm::log1p(-all_inliers(a)?));
+            Ok(Real(100.0 * (1.0 - all_corrupted), 1))
         },
     },
 ];

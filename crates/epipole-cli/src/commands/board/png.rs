@@ -47,7 +47,7 @@ pub(super) fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, Failure> {
         let [x, y, radius] = disk.map(|mm| mm * scale);
         for v in (y - radius).floor() as u32..(y + radius).ceil() as u32 {
             for u in (x - radius).floor() as u32..(x + radius).ceil() as u32 {
-                add(u, v, share_in_disk(u, v, [x, y], radius));
+                add(u, v, ratio_in_disk(u, v, [x, y], radius));
             }
         }
     }
@@ -72,7 +72,7 @@ fn overlap(pixel: u32, from: f64, to: f64) -> f64 {
     ((first + 1.0).min(to) - first.max(from)).max(0.0)
 }
 
-fn share_in_disk(u: u32, v: u32, [x, y]: [f64; 2], radius: f64) -> f64 {
+fn ratio_in_disk(u: u32, v: u32, [x, y]: [f64; 2], radius: f64) -> f64 {
     let at = |pixel: u32, k: u32| f64::from(pixel) + (f64::from(k) + 0.5) / f64::from(SAMPLES);
     let inside = (0..SAMPLES * SAMPLES)
         .filter(|k| {

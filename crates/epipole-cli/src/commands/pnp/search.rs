@@ -236,7 +236,7 @@ pub(super) fn with_focal(
     if report.could_be_chance() {
         context.warn(ADVICE);
     }
-    if !pose.tells_focal() {
+    if !pose.constrains_focal() {
         context.warn(
             "these points hardly determine the focal length: their depths differ too little, or their plane faces the camera",
         );

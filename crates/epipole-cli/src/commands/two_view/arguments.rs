@@ -100,11 +100,11 @@ struct JudgingArguments {
     min_inliers: usize,
     /// Minimum ratio of the epipolar inliers explained by a homography that means a plane or a
     /// rotation.
-    #[arg(long, default_value_t = TwoViewOptions::default().max_homography_share, value_name = "RATIO", value_parser = positive)]
-    max_homography_share: f64,
+    #[arg(long, default_value_t = TwoViewOptions::default().max_homography_ratio, value_name = "RATIO", value_parser = positive)]
+    max_homography_ratio: f64,
     /// Minimum ratio of E's inliers to F's for E to be preferred.
-    #[arg(long, default_value_t = TwoViewOptions::default().min_essential_share, value_name = "RATIO", value_parser = positive)]
-    min_essential_share: f64,
+    #[arg(long, default_value_t = TwoViewOptions::default().min_essential_ratio, value_name = "RATIO", value_parser = positive)]
+    min_essential_ratio: f64,
 }
 
 impl Arguments {
@@ -113,7 +113,7 @@ impl Arguments {
         TwoViewOptions::default()
             .with_ransac(self.robust.options(context))
             .with_min_num_inliers(self.judging.min_inliers)
-            .with_max_homography_share(self.judging.max_homography_share)
-            .with_min_essential_share(self.judging.min_essential_share)
+            .with_max_homography_ratio(self.judging.max_homography_ratio)
+            .with_min_essential_ratio(self.judging.min_essential_ratio)
     }
 }

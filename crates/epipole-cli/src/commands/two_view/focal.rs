@@ -44,7 +44,7 @@ pub(super) fn intrinsics(
     let is_telling = |report: &RansacReport<PoseWithFocal>| {
         report.num_unique_inliers >= options.min_num_inliers
             && !report.could_be_chance()
-            && report.model.tells_focal()
+            && report.model.constrains_focal()
     };
     let found = estimate_relative_pose_and_focal(
         pixels1,

@@ -17,8 +17,8 @@ use epipole::homography::{HomographyEstimator, estimate_homography_calibrated};
 use epipole::progress::Stage;
 use epipole::robust::{MatchSet, RansacReport};
 use epipole::two_view::{
-    Configuration, ExplainingTurn, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view,
-    estimate_two_view_calibrated, find_explaining_turn,
+    Configuration, ExplainingRotation, TwoViewModel, TwoViewOptions, TwoViewReport,
+    estimate_two_view, estimate_two_view_calibrated, find_explaining_rotation,
 };
 use nalgebra::Matrix3;
 
@@ -80,7 +80,7 @@ impl Found {
     }
 
     /// Records a rotation that explains the inliers.
-    pub(super) fn turned(&mut self, turn: &ExplainingTurn) {
+    pub(super) fn turned(&mut self, turn: &ExplainingRotation) {
         self.configuration = "panoramic";
         self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
     }
@@ -290,7 +290,7 @@ fn essential(
     }
     found.cam2_from_cam1 = Some(pose.cam2_from_cam1());
     let (cameras, inliers) = (cameras.both(), &found.inliers);
-    if let Some(turn) = find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging)? {
+    if let Some(turn) = find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)? {
         context.warn(&turn::sentence(&turn));
         found.turned(&turn);
     }
@@ -310,7 +310,7 @@ fn planar(
     let mut found = Found::of_search(["homography", "planar"], h, errors_px, report, &options);
     if let (Some(cameras), "planar") = (cameras, found.configuration) {
         let (cameras, inliers) = (cameras.both(), &found.inliers);
-        let turn = find_explaining_turn(pixels1, pixels2, cameras, inliers, &judging)?;
+        let turn = find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)?;
         turn.iter().for_each(|turn| found.turned(turn));
     }
     Ok(found)

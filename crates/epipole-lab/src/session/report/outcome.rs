@@ -100,10 +100,10 @@ impl Project {
         match reason {
             _ if turns > 0 && moves == 0 => {
                 let focal_px = |factor| self.focal_px(photo, factor).round() as u32;
-                Outcome::OnlyTurned(median(factors).map(focal_px))
+                Outcome::RotationOnly(median(factors).map(focal_px))
             }
             _ if turns + moves == 0 => Outcome::OverlapsNone(most as usize),
-            UnregisteredReason::NoBaseline => Outcome::OnlyTurned(None),
+            UnregisteredReason::NoBaseline => Outcome::RotationOnly(None),
             UnregisteredReason::FewPoints(count) => Outcome::SeesFew(count as usize),
             UnregisteredReason::NoPose(count) => Outcome::NoPlace(count as usize),
             _ => Outcome::SeesFew(0),
@@ -132,7 +132,7 @@ impl Project {
                 "overlaps no other photograph: at best {most} matches agree, and {enough} are needed. \
                  Take one in between"
             ),
-            Outcome::OnlyTurned(focal_px) => format!(
+            Outcome::RotationOnly(focal_px) => format!(
                 "the camera only turned between this one and the others{}, and turning shows no depth. Take a step to the \
                  side between photographs",
                 focal_px.map_or(String::new(), |focal_px| format!(

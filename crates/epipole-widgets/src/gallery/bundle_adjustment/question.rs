@@ -20,7 +20,7 @@ const COST_TOLERANCE: f64 = 1e-5;
 /// Width of Huber's loss, pixels.
 const HUBER_PX: f64 = 2.0;
 /// Rotation of a camera for a perturbation of 1, radians (standard deviation per axis).
-const TURN_RAD: f64 = 0.5;
+const ROTATION_RAD: f64 = 0.5;
 
 /// All inputs of the job.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -201,7 +201,7 @@ impl Question {
         let mut vector = || Vector3::new(random.normal(), random.normal(), random.normal());
         let length = self.disturbance * WIDTH;
         for camera in &house.cameras {
-            let turn = UnitQuaternion::from_scaled_axis(vector() * self.disturbance * TURN_RAD);
+            let turn = UnitQuaternion::from_scaled_axis(vector() * self.disturbance * ROTATION_RAD);
             let rotation = turn * camera.cam_from_world.rotation;
             let center = camera.center_in_world() + vector() * length;
             let translation = Translation3::from(-(rotation * center.coords));

@@ -6,8 +6,7 @@ use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
 use epipole::Error;
 use epipole::calibration::{
-    Board, BoardSearch, BoardView, CalibrationOptions, Pattern, calibrate, find_board,
-    photograph_of_board,
+    Board, BoardSearch, BoardView, CalibrationOptions, Pattern, calibrate, find_board, render_board,
 };
 use epipole::camera::{Camera, Distortion, Intrinsics, Lens, RigidTransform};
 use epipole::imaging::{gray_to_u8, resize};
@@ -157,8 +156,7 @@ fn taken(board: &Board, progress: Progress<'_>) -> Result<&'static Taken, Error>
     let (camera, mut photographs, mut views) = (camera()?, Vec::new(), Vec::new());
     for index in 0..NUM_VIEWS {
         tell(progress, index as f64 / NUM_VIEWS as f64)?;
-        let image =
-            photograph_of_board(board, &camera, &pose(index), NOISE, index as u64, &mut ())?;
+        let image = render_board(board, &camera, &pose(index), NOISE, index as u64, &mut ())?;
         views.push(match find_board(&image, board, &mut ())? {
             BoardSearch::Found(found) => Some(found),
             _ => None,

@@ -295,8 +295,8 @@ mod tests {
     #[test]
     fn the_whole_photographs_leave_margins_and_the_valid_part_does_not() {
         let mut model = Rectify::new();
-        assert!(model.state().unwrap().turned.valid_share() < 0.8);
+        assert!(model.state().unwrap().turned.valid_ratio() < 0.8);
         model.update(&Event::set(&FRAME, "valid")).unwrap();
-        assert!(model.state().unwrap().turned.valid_share() > 0.99);
+        assert!(model.state().unwrap().turned.valid_ratio() > 0.99);
     }
 }

@@ -104,7 +104,7 @@ impl Turned {
 
     /// Returns the fraction of a rectified image that its photograph fills, the smaller of the two,
     /// 0 to 1.
-    pub(super) fn valid_share(&self) -> f64 {
+    pub(super) fn valid_ratio(&self) -> f64 {
         let (right, bottom) = (f64::from(PHOTO_SIZE.0 - 1), f64::from(PHOTO_SIZE.1 - 1));
         let all = right * bottom;
         let area = |rect: &PixelRect| (rect.u_max - rect.u_min) * (rect.v_max - rect.v_min);
@@ -268,7 +268,7 @@ mod tests {
                     }
                     let valid = &done.valid[index];
                     assert!(valid.u_min >= -1e-6 && valid.v_max <= 479.0 + 1e-6);
-                    assert!(done.valid_share() > 0.4, "{}", done.valid_share());
+                    assert!(done.valid_ratio() > 0.4, "{}", done.valid_ratio());
                 }
                 assert!(done.apart_deg() < 1e-6 && done.off_baseline_deg() < 1e-6);
             }

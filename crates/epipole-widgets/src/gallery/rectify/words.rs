@@ -12,7 +12,7 @@ impl Words for Rectify {
         };
         let apart = turned.map(|turned| turned.apart_deg());
         let off = turned.map(|turned| turned.off_baseline_deg());
-        let valid = turned.map(|turned| 100.0 * turned.valid_share());
+        let valid = turned.map(|turned| 100.0 * turned.valid_ratio());
         let seen = self.selected().filter(|(_, shown)| shown.is_seen);
         let own_px = seen.map(|(_, shown)| shown.rows_px());
         vec![
@@ -35,7 +35,7 @@ impl Words for Rectify {
             (true, _) => format!(
                 "The pair is rectified: both cameras look the same way, square to the baseline, and every \
                  match is in one row. The photographs fill {}% of the smaller frame.",
-                format_number(100.0 * state.turned.valid_share(), 0)
+                format_number(100.0 * state.turned.valid_ratio(), 0)
             ),
             (false, true) => format!(
                 "The cameras are parallel, but their rows are {}° off the baseline: matches are up to {} px \

@@ -36,7 +36,7 @@ impl Blocks {
     }
 
     /// Returns the fraction of nonzero entries of `JᵀJ`, 0 to 1.
-    pub(super) fn filled_share(&self) -> f64 {
+    pub(super) fn fill_ratio(&self) -> f64 {
         let observations: usize = self.seen_by.iter().map(Vec::len).sum();
         let entries = PER_CAMERA * PER_CAMERA * self.num_cameras
             + PER_POINT * PER_POINT * self.num_points()
@@ -53,7 +53,7 @@ impl Blocks {
     }
 
     /// Returns the fraction of nonzero camera blocks after elimination of the points, 0 to 1.
-    pub(super) fn coupled_share(&self) -> f64 {
+    pub(super) fn coupled_ratio(&self) -> f64 {
         let cameras = 0..self.num_cameras;
         let pairs = cameras
             .clone()
@@ -121,7 +121,7 @@ mod tests {
         let normal = normal_matrix(&blocks);
         let filled = normal.iter().filter(|entry| **entry != 0.0).count();
         let share = filled as f64 / normal.len() as f64;
-        assert!((share - blocks.filled_share()).abs() < 1e-12, "{share}");
+        assert!((share - blocks.fill_ratio()).abs() < 1e-12, "{share}");
         let [cameras, points] = blocks.unknowns();
         let a = normal.view((0, 0), (cameras, cameras));
         let b = normal.view((0, cameras), (cameras, points));
@@ -147,6 +147,6 @@ mod tests {
             "{}",
             saving(60)
         );
-        assert_eq!(Blocks::new(4, 10, 9).coupled_share(), 1.0);
+        assert_eq!(Blocks::new(4, 10, 9).coupled_ratio(), 1.0);
     }
 }

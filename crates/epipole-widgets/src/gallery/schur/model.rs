@@ -73,7 +73,7 @@ const CHALLENGES: &[Challenge<Schur>] = &[
         hint: "Which two cameras are coupled once the points are gone?",
         why: "Eliminating a point couples all cameras that see it; once every two cameras share a point, no block \
               is zero.",
-        check: |model| model.blocks.num_cameras >= 8 && model.blocks.coupled_share() >= 1.0,
+        check: |model| model.blocks.num_cameras >= 8 && model.blocks.coupled_ratio() >= 1.0,
         solution: || vec![Event::set(&VIEWS, 8.0)],
     },
     Challenge {

@@ -7,7 +7,7 @@ impl Words for Schur {
     fn readouts(&self) -> Vec<Readout> {
         let blocks = &self.blocks;
         let [cameras, points] = blocks.unknowns();
-        let [filled, coupled] = [blocks.filled_share(), blocks.coupled_share()];
+        let [filled, coupled] = [blocks.fill_ratio(), blocks.coupled_ratio()];
         vec![
             Readout::count("unknowns", "All unknowns", cameras + points).main(),
             Readout::count("left", "Unknowns left", cameras).main(),
@@ -28,10 +28,10 @@ impl Words for Schur {
             blocks.num_points(),
             self.num_views(),
             cameras + points,
-            format_number(100.0 * blocks.filled_share(), 1),
+            format_number(100.0 * blocks.fill_ratio(), 1),
             cameras,
             format_number(blocks.saving(), 0),
-            format_number(100.0 * blocks.coupled_share(), 0)
+            format_number(100.0 * blocks.coupled_ratio(), 0)
         )
     }
 }

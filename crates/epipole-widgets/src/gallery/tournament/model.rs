@@ -78,7 +78,7 @@ impl Tournament {
     }
 
     /// Returns the success rates of two rivals at the selected ratio, once all runs are complete.
-    fn final_shares(&self, rivals: [usize; 2]) -> Option<[f64; 2]> {
+    fn final_ratios(&self, rivals: [usize; 2]) -> Option<[f64; 2]> {
         let (ratio, _) = self.ratio();
         let [one, other] = rivals.map(|rival| self.share(rival, ratio));
         self.is_finished().then_some([one?, other?])
@@ -152,7 +152,7 @@ const CHALLENGES: &[Challenge<Tournament>] = &[
         why: "Once more than half of the data are outliers the middle error belongs to one of them; a vote \
               only needs the true ones to agree more than chance does.",
         check: |model| {
-            let shares = model.final_shares([LOCAL, LEAST_MEDIAN]);
+            let shares = model.final_ratios([LOCAL, LEAST_MEDIAN]);
             shares.is_some_and(|[local, median]| local >= 0.9 && median < 0.4)
         },
         solution: || vec![Event::set(&RATIO, 0.7)],
@@ -164,7 +164,7 @@ const CHALLENGES: &[Challenge<Tournament>] = &[
         why: "RANSAC is only as good as its threshold: too wide, and outliers vote; too narrow, and good \
               points do not. The least median takes its measure from the data.",
         check: |model| {
-            let shares = model.final_shares([LEAST_MEDIAN, RANSAC]);
+            let shares = model.final_ratios([LEAST_MEDIAN, RANSAC]);
             model.ratio().0 == 4 && shares.is_some_and(|[median, ransac]| median > ransac + 0.05)
         },
         solution: || vec![Event::set(&RATIO, 0.4), Event::set(&THRESHOLD, 20.0)],

@@ -37,7 +37,7 @@ pub(super) fn failure((question, answer): (&Question, &Answer)) -> Option<String
              matches. Without a step aside there is no depth, and no cloud.",
             degrees(angle_deg)
         ),
-        Verdict::TurnedOtherwise {
+        Verdict::OrientationMismatch {
             angle_deg,
             focal_factor,
         } => format!(

@@ -5,7 +5,7 @@ use epipole::camera::{Camera, RigidTransform};
 use epipole::robust::RansacOptions;
 use epipole::two_view::{
     Configuration, TwoViewModel, TwoViewOptions, TwoViewReport, estimate_two_view_calibrated,
-    find_turn_and_focal,
+    find_rotation_and_focal,
 };
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub(crate) enum Verdict {
     /// Rotation only, by this angle in degrees.
     Turned(f64),
     /// Rotation only, if the focal length is a different one.
-    TurnedOtherwise {
+    OrientationMismatch {
         /// Rotation angle, degrees.
         angle_deg: f64,
         /// Factor on the given focal length.
@@ -128,7 +128,7 @@ fn turned_otherwise(
         Configuration::Panoramic => true,
         Configuration::General | Configuration::Degenerate => return Ok(None),
     };
-    let found = find_turn_and_focal(
+    let found = find_rotation_and_focal(
         pixels1,
         pixels2,
         cameras.each_ref(),
@@ -138,7 +138,7 @@ fn turned_otherwise(
     let Some(turn) = found else {
         return Ok(None);
     };
-    let verdict = |motion: &RigidTransform| Verdict::TurnedOtherwise {
+    let verdict = |motion: &RigidTransform| Verdict::OrientationMismatch {
         angle_deg: motion.rotation.angle().to_degrees(),
         focal_factor: turn.focal_factor,
     };

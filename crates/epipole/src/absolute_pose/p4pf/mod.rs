@@ -194,8 +194,8 @@ impl Sample {
         }
         // a + b f² − d s² = 0 by least squares.
         let determinant = bb * dd - bd * bd;
-        let tells_focal = bb > SAME_DEPTH * SAME_DEPTH && determinant > 1e-14 * bb * dd;
-        if !tells_focal {
+        let constrains_focal = bb > SAME_DEPTH * SAME_DEPTH && determinant > 1e-14 * bb * dd;
+        if !constrains_focal {
             return None;
         }
         let focal_sq = (bd * ad - dd * ab) / determinant;

@@ -238,7 +238,7 @@ pub(super) fn check(
 ) -> Result<()> {
     if width == 0 || height == 0 {
         return Err(Error::OutOfRange {
-            what: "the photographs' size in pixels",
+            what: "the images' size in pixels",
             requirement: "at least 1 × 1",
             value: 0.0,
         });

@@ -25,7 +25,7 @@ const TELLING: f64 = 0.1;
 
 impl PoseWithFocal {
     /// Returns whether the matches determine the focal length to within a tenth.
-    pub fn tells_focal(&self) -> bool {
+    pub fn constrains_focal(&self) -> bool {
         self.focal_std_px
             .is_some_and(|std_px| std_px < TELLING * self.focal_px)
     }

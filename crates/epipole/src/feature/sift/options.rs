@@ -117,7 +117,7 @@ pub(super) fn check(options: &SiftOptions) -> Result<()> {
             options.max_orientations >= 1,
         ),
         (
-            "the share of a further direction",
+            "the relative height of a further direction's peak",
             "greater than 0 and at most 1",
             f64::from(options.orientation_peak_ratio),
             options.orientation_peak_ratio > 0.0 && options.orientation_peak_ratio <= 1.0,

@@ -6,16 +6,8 @@ use crate::{Error, Result};
 /// Returns the common image size of both cameras.
 pub(super) fn common_size([first, second]: &[Camera; 2]) -> Result<(u32, u32)> {
     for (what, first, second) in [
-        (
-            "the columns of the two photographs",
-            first.width,
-            second.width,
-        ),
-        (
-            "the rows of the two photographs",
-            first.height,
-            second.height,
-        ),
+        ("the columns of the two images", first.width, second.width),
+        ("the rows of the two images", first.height, second.height),
     ] {
         if first != second {
             return Err(Error::SizeMismatch {
@@ -48,8 +40,8 @@ pub(super) fn check(
     alpha: f64,
 ) -> Result<()> {
     for (what, value) in [
-        ("the photographs' width", width),
-        ("the photographs' height", height),
+        ("the images' width", width),
+        ("the images' height", height),
         ("the rectified width", new_width),
         ("the rectified height", new_height),
     ] {

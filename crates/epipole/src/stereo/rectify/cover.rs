@@ -120,6 +120,6 @@ pub(super) fn around_what_is_seen(
         .filter(|slanted| enlarged(simple) > LARGEST_CROP * enlarged(*slanted));
     shown(slanted.unwrap_or(simple), alpha).ok_or(Error::Degenerate {
         what: "a rectification",
-        why: "the photographs hardly overlap after it",
+        why: "the images hardly overlap after it",
     })
 }

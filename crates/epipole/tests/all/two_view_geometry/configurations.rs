@@ -27,7 +27,7 @@ fn configurations_are_recognized() {
     // Sixty true matches of 200 with .7 px of noise leave the motion of one pair in forty farther
     // off than that: seven of 300 seeds.
     let mut generals = 0;
-    for (max_error_px, noise_px, share_true) in [
+    for (max_error_px, noise_px, true_ratio) in [
         (1.0, 0.3, 0.7),
         (1.0, 0.5, 0.7),
         (1.5, 0.3, 0.7),
@@ -60,7 +60,7 @@ fn configurations_are_recognized() {
             let close = |motion: &RigidTransform, truth: &RigidTransform| {
                 rotation_error(motion, truth) < 0.03 && direction_error(motion, truth) < 0.1
             };
-            let general = scene(&mut random, pair, Shape::Volume, 200, share_true, noise_px);
+            let general = scene(&mut random, pair, Shape::Volume, 200, true_ratio, noise_px);
             let (calibrated, uncalibrated) = two_view(&general);
             assert_eq!(calibrated.configuration, Configuration::General, "{told}");
             assert_eq!(uncalibrated.configuration, Configuration::General, "{told}");
@@ -81,7 +81,7 @@ fn configurations_are_recognized() {
             );
             assert_eq!(calibrated.other_cam2_from_cam1, None);
 
-            let plane = scene(&mut random, pair, Shape::Plane, 200, share_true, noise_px);
+            let plane = scene(&mut random, pair, Shape::Plane, 200, true_ratio, noise_px);
             let (calibrated, uncalibrated) = two_view(&plane);
             assert_eq!(calibrated.configuration, Configuration::Planar, "{told}");
             assert_eq!(uncalibrated.configuration, Configuration::Planar, "{told}");
@@ -99,7 +99,7 @@ fn configurations_are_recognized() {
                 turned,
                 Shape::Volume,
                 200,
-                share_true,
+                true_ratio,
                 noise_px,
             );
             let (calibrated, uncalibrated) = two_view(&turn);
@@ -189,7 +189,7 @@ fn the_motion_is_that_of_e_even_where_f_is_chosen() {
         let choose = TwoViewOptions::default()
             .with_ransac(options(seed))
             // E cannot have twice F's inliers.
-            .with_min_essential_share(2.0);
+            .with_min_essential_ratio(2.0);
         let found = estimate_two_view_calibrated(
             &scene.p1,
             &scene.p2,

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 #[test]
 fn a_dominant_plane_does_not_mislead() {
     let (all, most) = (1.0, 0.8);
-    for (share_on_plane, count, share_true, noise_px) in [
+    for (share_on_plane, count, true_ratio, noise_px) in [
         (0.5, 300, most, 0.3),
         (0.9, 300, all, 0.3),
         (0.9, 300, most, 0.3),
@@ -31,7 +31,7 @@ fn a_dominant_plane_does_not_mislead() {
             let mut random = Random::new(seed);
             let pair = cameras(&mut random);
             let shape = Shape::Mostly(share_on_plane);
-            let s = scene(&mut random, pair, shape, count, share_true, noise_px);
+            let s = scene(&mut random, pair, shape, count, true_ratio, noise_px);
             let report = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
             let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
             // Points anywhere in space, not only those that were matched.
@@ -51,7 +51,7 @@ fn a_dominant_plane_does_not_mislead() {
         }
         assert!(
             wrong.is_empty(),
-            "{share_on_plane} of {count} on the plane, {share_true} true, {noise_px} px: {wrong:?}"
+            "{share_on_plane} of {count} on the plane, {true_ratio} true, {noise_px} px: {wrong:?}"
         );
     }
 }

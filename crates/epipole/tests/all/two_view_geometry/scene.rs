@@ -54,7 +54,7 @@ pub(crate) fn scene(
     (cam1, cam2): (PosedCamera, PosedCamera),
     shape: Shape,
     num_matches: usize,
-    share_true: f64,
+    true_ratio: f64,
     noise_px: f64,
 ) -> Scene {
     let mut found = Scene {
@@ -65,7 +65,7 @@ pub(crate) fn scene(
         p2: Vec::new(),
         truth: Vec::new(),
     };
-    let num_true = (share_true * num_matches as f64).round() as usize;
+    let num_true = (true_ratio * num_matches as f64).round() as usize;
     while found.p1.len() < num_matches {
         let on_plane = match shape {
             Shape::Volume => false,

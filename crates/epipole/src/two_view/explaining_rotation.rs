@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Point2, Rotation3, Translation3, UnitQuaternion};
 
 /// A rotation that explains nearly all inliers of another model.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExplainingTurn {
+pub struct ExplainingRotation {
     /// The rotation; its translation is zero.
     pub cam2_from_cam1: RigidTransform,
     /// Number of inliers that it explains.
@@ -16,7 +16,7 @@ pub struct ExplainingTurn {
     pub num_inliers: usize,
 }
 
-impl ExplainingTurn {
+impl ExplainingRotation {
     /// Returns the rotation of a search if it explains nearly all inliers of another model.
     ///
     /// * `intrinsics`: intrinsics of the two cameras
@@ -31,7 +31,7 @@ impl ExplainingTurn {
         if turn.num_unique_inliers < 3 {
             return None;
         }
-        let homography = homography_of_turn(&turn.model, intrinsics);
+        let homography = homography_of_rotation(&turn.model, intrinsics);
         let (mut num_inliers, mut num_explained) = (0, 0);
         for (p1, p2) in inliers {
             num_inliers += 1;
@@ -48,9 +48,9 @@ impl ExplainingTurn {
         num_inliers: usize,
         options: &TwoViewOptions,
     ) -> Option<Self> {
-        let needed = options.max_homography_share * num_inliers as f64;
+        let needed = options.max_homography_ratio * num_inliers as f64;
         (num_explained as f64 >= needed).then(|| Self {
-            cam2_from_cam1: motion_of_turn(rotation),
+            cam2_from_cam1: motion_of_rotation(rotation),
             num_explained,
             num_inliers,
         })
@@ -58,7 +58,7 @@ impl ExplainingTurn {
 }
 
 /// Returns the motion of a camera that only rotates.
-pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
+pub(super) fn motion_of_rotation(rotation: &Matrix3<f64>) -> RigidTransform {
     let rotation = Rotation3::from_matrix_unchecked(*rotation);
     RigidTransform::from_parts(
         Translation3::identity(),
@@ -67,7 +67,7 @@ pub(super) fn motion_of_turn(rotation: &Matrix3<f64>) -> RigidTransform {
 }
 
 /// Returns the homography of a rotation, in pixels: `K2 R K1⁻¹`.
-pub(super) fn homography_of_turn(
+pub(super) fn homography_of_rotation(
     rotation: &Matrix3<f64>,
     [k1, k2]: [&Intrinsics; 2],
 ) -> Matrix3<f64> {

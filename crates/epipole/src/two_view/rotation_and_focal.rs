@@ -1,7 +1,7 @@
 //! Rotation-only motion with a wrong focal length: its homographies look like those of planes.
 
 use super::TwoViewOptions;
-use super::explaining_turn::{homography_of_turn, motion_of_turn};
+use super::explaining_rotation::{homography_of_rotation, motion_of_rotation};
 use super::pairs::inliers_of;
 use super::rotation::align_rays;
 use crate::Result;
@@ -31,7 +31,7 @@ const RMS_SLACK: f64 = 0.02;
 
 /// A rotation and a focal length that explain nearly all of some matches.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TurnAndFocal {
+pub struct RotationAndFocal {
     /// The rotation, as a motion without translation.
     pub cam2_from_cam1: RigidTransform,
     /// Ratio of the actual focal lengths to the given ones.
@@ -66,7 +66,7 @@ struct Search<'a> {
 /// * `pixels1`, `pixels2`: the matches from which H was estimated
 /// * `cameras`: the two cameras; principal points and lenses are trusted, focal lengths are not
 /// * `inliers`: for each match, whether it is an inlier of H
-/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
+/// * `options`: [`TwoViewOptions::max_homography_ratio`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`](crate::robust::RansacOptions::max_error_px) should be that of
 ///   the search
 ///
@@ -87,7 +87,7 @@ struct Search<'a> {
 /// ```
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Camera, Intrinsics};
-/// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated, find_turn_and_focal};
+/// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated, find_rotation_and_focal};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
 /// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
@@ -102,18 +102,18 @@ struct Search<'a> {
 /// let camera = Camera::pinhole(guess, 640, 480);
 /// let report = estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
-/// let turn = find_turn_and_focal(&p1, &p2, [&camera; 2], &report.inliers, &options)?.unwrap();
+/// let turn = find_rotation_and_focal(&p1, &p2, [&camera; 2], &report.inliers, &options)?.unwrap();
 /// assert!((turn.focal_factor - 600.0 / 480.0).abs() < 1e-3);
 /// assert!((turn.cam2_from_cam1.rotation.angle() - 0.2).abs() < 1e-3);
 /// # Ok(()) }
 /// ```
-pub fn find_turn_and_focal(
+pub fn find_rotation_and_focal(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     cameras: [&Camera; 2],
     inliers: &[bool],
     options: &TwoViewOptions,
-) -> Result<Option<TurnAndFocal>> {
+) -> Result<Option<RotationAndFocal>> {
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
     let straight = |camera: &Camera, pixels: &[Point2<f64>]| -> Option<Vec<Point2<f64>>> {
@@ -157,9 +157,9 @@ impl Search<'_> {
     }
 
     /// Returns the rotation, if it is as good as a homography with this cost.
-    fn turn(&self, cost: f64) -> Option<TurnAndFocal> {
+    fn turn(&self, cost: f64) -> Option<RotationAndFocal> {
         let count = self.pairs.len() as f64;
-        let needed = self.options.max_homography_share * count;
+        let needed = self.options.max_homography_ratio * count;
         let explained = |found: &Candidate| {
             let fits = |(p1, p2): &&(_, _)| self.options.fits_homography(&found.homography, p1, p2);
             self.pairs.iter().filter(fits).count()
@@ -175,8 +175,8 @@ impl Search<'_> {
         let num_explained = explained(&found);
         let rms = |cost: f64| (cost / count).sqrt();
         let most = MAX_RMS_RATIO * rms(cost) + RMS_SLACK * self.options.ransac.max_error_px;
-        (num_explained as f64 >= needed && rms(found.cost) <= most).then(|| TurnAndFocal {
-            cam2_from_cam1: motion_of_turn(&found.rotation),
+        (num_explained as f64 >= needed && rms(found.cost) <= most).then(|| RotationAndFocal {
+            cam2_from_cam1: motion_of_rotation(&found.rotation),
             focal_factor,
             num_explained,
             num_inliers: self.pairs.len(),
@@ -199,7 +199,7 @@ impl Search<'_> {
             .map(|(p1, p2)| [k1.ray(p1).normalize(), k2.ray(p2).normalize()])
             .collect();
         let candidate = |rotation: Matrix3<f64>| {
-            let homography = homography_of_turn(&rotation, [&k1, &k2]);
+            let homography = homography_of_rotation(&rotation, [&k1, &k2]);
             Candidate {
                 cost: self.cost(&homography),
                 rotation,
@@ -316,14 +316,14 @@ mod tests {
     }
 
     /// Result for matches of a homography with a guessed focal length.
-    fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<TurnAndFocal> {
+    fn judge([p1, p2]: &[Vec<Point2<f64>>; 2]) -> Option<RotationAndFocal> {
         let (guess, options) = (camera(GUESS_PX), options());
         let h = estimate_homography(p1, p2, &options.in_two_dimensions(), &mut ()).unwrap();
         let pairs = p1.iter().zip(p2);
         let inliers: Vec<bool> = pairs
             .map(|(a, b)| options.fits_homography(&h.model, a, b))
             .collect();
-        find_turn_and_focal(p1, p2, [&guess; 2], &inliers, &options).unwrap()
+        find_rotation_and_focal(p1, p2, [&guess; 2], &inliers, &options).unwrap()
     }
 
     fn angle(random: &mut Random) -> Vector3<f64> {
@@ -419,7 +419,7 @@ mod tests {
                 let [p1, p2] = matches(&mut random, &k, &motion, &wall, noise_px, &|p| p).unwrap();
                 let right: Vec<bool> = (0..p1.len()).map(|index| index % 5 != 4).collect();
                 let found =
-                    find_turn_and_focal(&p1, &p2, [&camera(GUESS_PX); 2], &right, &options())
+                    find_rotation_and_focal(&p1, &p2, [&camera(GUESS_PX); 2], &right, &options())
                         .unwrap();
                 assert_eq!(found, None, "{noise_px} {seed}");
             }
@@ -430,7 +430,7 @@ mod tests {
     fn too_little_to_tell_is_nothing_and_nonsense_an_error() {
         let camera = camera(GUESS_PX);
         let ask = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
-            find_turn_and_focal(p1, p2, [&camera; 2], &vec![true; p1.len()], &options())
+            find_rotation_and_focal(p1, p2, [&camera; 2], &vec![true; p1.len()], &options())
         };
         let at = |i: usize| Point2::new((i * 97 % 800) as f64, (i * 61 % 600) as f64);
         let some: Vec<_> = (0..40).map(at).collect();

@@ -70,7 +70,7 @@ fn rotations_and_focal_length_are_found_from_a_wrong_guess() {
         assert!(overlaps.len() > 6);
         let tree = largest_tree(6, &overlaps).unwrap();
         let guess = vec![Intrinsics::centered(768.0, 640, 480).unwrap(); 6];
-        let (found, factor) = estimate_turns(&guess, &overlaps, &tree, true, &mut ()).unwrap();
+        let (found, factor) = estimate_rotations(&guess, &overlaps, &tree, true, &mut ()).unwrap();
         let off = off(&found, &truth, tree.root);
         assert!(off < angle, "{noise_px}: {off}");
         assert!(
@@ -85,7 +85,7 @@ fn a_known_focal_length_is_kept() {
     let (truth, overlaps) = world(560.0, 0.0);
     let tree = largest_tree(6, &overlaps).unwrap();
     let known = vec![Intrinsics::centered(560.0, 640, 480).unwrap(); 6];
-    let (found, factor) = estimate_turns(&known, &overlaps, &tree, false, &mut ()).unwrap();
+    let (found, factor) = estimate_rotations(&known, &overlaps, &tree, false, &mut ()).unwrap();
     assert!(factor.is_none());
     assert!(off(&found, &truth, tree.root) < 1e-7);
 }

@@ -1,6 +1,6 @@
 //! Rotations of cameras at one position, with a common focal factor.
 
-use super::jacobian::{PixelMatch, Turns, TurnsProblem};
+use super::jacobian::{PixelMatch, RotationsProblem, Turns};
 use super::overlap::Overlap;
 use super::tree::Tree;
 use crate::camera::Intrinsics;
@@ -38,7 +38,7 @@ pub(super) type Rotations = Vec<Option<Matrix3<f64>>>;
 /// # Errors
 /// [`Error::Degenerate`] if the matches of an overlap do not determine its rotation;
 /// [`Error::Canceled`].
-pub(super) fn estimate_turns(
+pub(super) fn estimate_rotations(
     intrinsics: &[Intrinsics],
     overlaps: &[Overlap],
     tree: &Tree,
@@ -101,7 +101,7 @@ pub(super) fn estimate_turns(
             pixels: *pixels,
         })
     });
-    let problem = TurnsProblem {
+    let problem = RotationsProblem {
         matches: matches.collect(),
         turns: Turns {
             intrinsics: order.iter().map(|&image| intrinsics[image]).collect(),

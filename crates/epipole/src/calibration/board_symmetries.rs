@@ -6,14 +6,14 @@ use core::f64::consts::FRAC_PI_2;
 use nalgebra::{Translation3, Vector3};
 
 /// Rotation of a board in its plane that leaves its appearance unchanged.
-pub(super) struct BoardTurn {
+pub(super) struct BoardSymmetry {
     /// For each mark of the rotated board, the mark previously at this position.
     mark_before: Vec<usize>,
     /// `x_in_board = board_from_turned * x_in_turned`.
     pub(super) board_from_turned: RigidTransform,
 }
 
-impl BoardTurn {
+impl BoardSymmetry {
     /// Returns the same view, with marks numbered on the rotated board.
     pub(super) fn view(&self, view: &BoardView) -> BoardView {
         BoardView {
@@ -31,7 +31,7 @@ impl BoardTurn {
 /// Chessboard colors are invariant under 180° rotation if the numbers of columns and rows of
 /// corners are both even or both odd, and under 90° if they are equal and even. Circle grids are
 /// invariant under 180°. Boards with markers have no such symmetry.
-pub(super) fn board_turns(board: &Board) -> Vec<BoardTurn> {
+pub(super) fn board_symmetries(board: &Board) -> Vec<BoardSymmetry> {
     let (columns, rows) = (board.columns(), board.rows());
     let quarters: &[usize] = match board.pattern() {
         Pattern::AsymmetricCircles | Pattern::Charuco { .. } | Pattern::AprilGrid { .. } => &[0],
@@ -57,7 +57,7 @@ pub(super) fn board_turns(board: &Board) -> Vec<BoardTurn> {
         let angle = Vector3::z() * (quarters as f64 * FRAC_PI_2);
         let rotation = RigidTransform::new(Vector3::zeros(), angle).rotation;
         let shift = middle - rotation * middle;
-        BoardTurn {
+        BoardSymmetry {
             mark_before: (0..board.num_marks()).map(before).collect(),
             board_from_turned: RigidTransform::from_parts(Translation3::from(shift), rotation),
         }
@@ -74,7 +74,7 @@ mod tests {
     fn marks_are_where_the_turn_brings_them() {
         for (columns, rows, num) in [(9, 6, 1), (7, 5, 2), (8, 6, 2), (6, 6, 4), (7, 7, 2)] {
             let board = Board::new(Pattern::Chessboard, columns, rows, 0.03).unwrap();
-            let turns = board_turns(&board);
+            let turns = board_symmetries(&board);
             assert_eq!(turns.len(), num, "{columns} × {rows}");
             for turn in turns {
                 for (mark, &before) in turn.mark_before.iter().enumerate() {

@@ -1,10 +1,10 @@
 //! Detection of rotation-only motion: E and F are meaningless then, though they fit.
 
 use super::TwoViewOptions;
-use super::explaining_turn::ExplainingTurn;
+use super::explaining_rotation::ExplainingRotation;
 use super::pairs::inliers_of;
 use super::rotation::estimate_rotation;
-use super::turn_through_lenses::find_turn_through_lenses;
+use super::rotation_through_lenses::find_rotation_through_lenses;
 use crate::camera::Camera;
 use crate::epipolar::ObservedMatches;
 use crate::robust::RansacOptions;
@@ -20,7 +20,7 @@ const MAX_SAMPLES: usize = 300;
 /// * `pixels1`, `pixels2`: the matches from which the model was estimated
 /// * `cameras`: the two cameras, with any lens
 /// * `inliers`: for each match, whether it is an inlier of the model
-/// * `options`: [`TwoViewOptions::max_homography_share`] defines "nearly all", and
+/// * `options`: [`TwoViewOptions::max_homography_ratio`] defines "nearly all", and
 ///   [`RansacOptions::max_error_px`] should be that of the model
 ///
 /// # Errors
@@ -31,7 +31,7 @@ const MAX_SAMPLES: usize = 300;
 /// # fn main() -> Result<(), epipole::Error> {
 /// use epipole::camera::{Camera, Intrinsics};
 /// use epipole::estimate_relative_pose;
-/// use epipole::two_view::{TwoViewOptions, find_explaining_turn};
+/// use epipole::two_view::{TwoViewOptions, find_explaining_rotation};
 /// use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
 /// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
@@ -45,23 +45,23 @@ const MAX_SAMPLES: usize = 300;
 /// let camera = Camera::pinhole(k, 640, 480);
 /// let pose = estimate_relative_pose(&p1, &p2, [&camera; 2], &options.ransac, &mut ())?;
 /// assert_eq!(pose.num_inliers, 60);
-/// let turn = find_explaining_turn(&p1, &p2, [&camera; 2], &pose.inliers, &options)?;
+/// let turn = find_explaining_rotation(&p1, &p2, [&camera; 2], &pose.inliers, &options)?;
 /// assert_eq!(turn.map(|turn| turn.num_explained), Some(60));
 /// # Ok(()) }
 /// ```
-pub fn find_explaining_turn(
+pub fn find_explaining_rotation(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     cameras: [&Camera; 2],
     inliers: &[bool],
     options: &TwoViewOptions,
-) -> Result<Option<ExplainingTurn>> {
+) -> Result<Option<ExplainingRotation>> {
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
     if !Camera::are_pinholes(cameras) {
         let [seen1, seen2] = ObservedMatches::new(&in1, &in2, cameras)?.seen;
         let pairs: Vec<_> = seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect();
-        return Ok(find_turn_through_lenses(&pairs, options));
+        return Ok(find_rotation_through_lenses(&pairs, options));
     }
     let [k1, k2] = cameras.map(|camera| &camera.intrinsics);
     let ransac = RansacOptions {
@@ -76,5 +76,5 @@ pub fn find_explaining_turn(
         Err(error) => return Err(error),
     };
     let pairs = in1.iter().zip(&in2);
-    Ok(ExplainingTurn::new(&report, [k1, k2], pairs, options))
+    Ok(ExplainingRotation::new(&report, [k1, k2], pairs, options))
 }

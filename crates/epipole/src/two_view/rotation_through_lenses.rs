@@ -1,7 +1,7 @@
 //! Rotations of cameras with any lens.
 
 use super::TwoViewOptions;
-use super::explaining_turn::ExplainingTurn;
+use super::explaining_rotation::ExplainingRotation;
 use super::rotation::align_rays;
 use crate::camera::Observation;
 use nalgebra::{Matrix3, Vector3};
@@ -9,17 +9,17 @@ use nalgebra::{Matrix3, Vector3};
 /// Number of concentration steps on the better-fitting half of the matches.
 const ROUNDS: usize = 10;
 
-/// Body of [`find_explaining_turn`](super::find_explaining_turn) for cameras with any lens; errors
+/// Body of [`find_explaining_rotation`](super::find_explaining_rotation) for cameras with any lens; errors
 /// are in image 2.
 ///
 /// * `inliers`: observations of both cameras, with few outliers
 ///
 /// Source: Rousseeuw & Van Driessen 2006, "Computing LTS regression for large data sets"
 /// (concentration steps).
-pub(super) fn find_turn_through_lenses(
+pub(super) fn find_rotation_through_lenses(
     inliers: &[[Observation; 2]],
     options: &TwoViewOptions,
-) -> Option<ExplainingTurn> {
+) -> Option<ExplainingRotation> {
     // A rotation always fits two matches.
     if inliers.len() < 3 {
         return None;
@@ -43,7 +43,7 @@ pub(super) fn find_turn_through_lenses(
     let num_explained = (errors_sq.iter())
         .filter(|e| **e < reach_px * reach_px)
         .count();
-    ExplainingTurn::if_nearly_all(&best, num_explained, rays.len(), options)
+    ExplainingRotation::if_nearly_all(&best, num_explained, rays.len(), options)
 }
 
 #[cfg(test)]
@@ -83,13 +83,13 @@ mod tests {
                 };
                 pairs.push([see(x), see(other)]);
             }
-            let found = find_turn_through_lenses(&pairs, &TwoViewOptions::default());
+            let found = find_rotation_through_lenses(&pairs, &TwoViewOptions::default());
             assert_eq!(found.is_some(), expected);
             if let Some(found) = found {
                 let off = found.cam2_from_cam1.rotation.angle_to(&motion.rotation);
                 assert!(off < 1e-3, "{off}");
             }
         }
-        assert!(find_turn_through_lenses(&[], &TwoViewOptions::default()).is_none());
+        assert!(find_rotation_through_lenses(&[], &TwoViewOptions::default()).is_none());
     }
 }
