@@ -7,6 +7,8 @@ use nalgebra::{Point2, Vector2};
 
 /// Width of the black border of an AprilGrid's tags, bits: that of Kalibr.
 const BORDER_OF_TAGS: usize = 2;
+/// Width of the black border of a ChArUco board's markers, bits.
+const BORDER_OF_CHARUCO: usize = 1;
 
 /// Markers of a board.
 pub(super) struct BoardMarkers {
@@ -16,6 +18,17 @@ pub(super) struct BoardMarkers {
     /// Corners of each marker in squares, by number, clockwise from its first corner.
     pub(super) corners: Vec<[Point2<f64>; 4]>,
     /// Distance from a mark to the nearest edge other than its own two, squares.
+    pub(super) clear: f64,
+    /// Markers in the middle of bright squares.
+    pub(super) insets: Option<MarkerInsets>,
+}
+
+/// Markers as dark squares in the middle of bright ones.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MarkerInsets {
+    /// Distance from the sides of the bright square, squares.
+    pub(super) margin: f64,
+    /// Distance from a mark to the nearest bit of a marker, squares.
     pub(super) clear: f64,
 }
 
@@ -36,11 +49,17 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
                 let first = Point2::new(i as f64 - 1.0 + margin, j as f64 - 1.0 + margin);
                 square(first, marker_ratio)
             });
+            let bit = marker_ratio / (dictionary.num_bits() + 2 * BORDER_OF_CHARUCO) as f64;
+            let border = BORDER_OF_CHARUCO as f64 * bit;
             Some(BoardMarkers {
                 dictionary,
-                border_bits: 1,
+                border_bits: BORDER_OF_CHARUCO,
                 corners: corners.collect(),
                 clear: SQRT_2 * margin,
+                insets: Some(MarkerInsets {
+                    margin,
+                    clear: SQRT_2 * (margin + border),
+                }),
             })
         }
         Pattern::AprilGrid { spacing } => {
@@ -61,6 +80,7 @@ pub(super) fn board_markers(board: &Board) -> Option<BoardMarkers> {
                 border_bits: BORDER_OF_TAGS,
                 corners: corners.collect(),
                 clear: spacing.min(first_bit),
+                insets: None,
             })
         }
     }

@@ -19,8 +19,18 @@ const LEAST_CONTRAST: f64 = 0.02;
 /// Minimum number of pixels to determine nine parameters well.
 const LEAST_PIXELS: usize = 25;
 
+/// Dark squares within the two bright quadrants, such as the markers of a ChArUco board: one corner
+/// of each points to the crossing, and their sides are parallel to the edges.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Insets {
+    /// Distance of their sides from each edge, pixels.
+    pub(super) margins_px: [f64; 2],
+    /// Whether the bright quadrants are those in which both signed distances have the same sign.
+    pub(super) are_where_signs_agree: bool,
+}
+
 /// The gray `m + c·Φ(d₁/σ)·Φ(d₂/σ) + s·x`, where dᵢ is the distance from edge i and
-/// `Φ(x) = erf(x/√2)`.
+/// `Φ(x) = erf(x/√2)`, minus `2c` within the insets, blurred alike.
 #[derive(Debug, Clone, Copy)]
 struct Crossing {
     /// Position relative to the middle of the window.
@@ -35,6 +45,16 @@ struct Crossing {
     contrast: f64,
     /// s: illumination gradient over the board.
     slope: Vector2<f64>,
+    insets: Option<Insets>,
+}
+
+/// Derivatives of a term by the signed distances from both edges, by the blur, and its value, all
+/// for a contrast of 1.
+#[derive(Default)]
+struct Term {
+    by_distance: [f64; 2],
+    by_blur: f64,
+    value: f64,
 }
 
 /// A pixel relative to the middle of the window: position and gray value.
@@ -45,30 +65,67 @@ impl Crossing {
     /// contrast and slope.
     fn gray(&self, x: f64, y: f64) -> (f64, SVector<f64, 9>) {
         let (dx, dy) = (x - self.place.x, y - self.place.y);
-        let scale = FRAC_1_SQRT_2 / self.blur_px;
         let edge = |angle_rad: f64| {
             let (sine, cosine) = libm::sincos(angle_rad);
             let (across, along) = (cosine * dy - sine * dx, cosine * dx + sine * dy);
-            let t = across * scale;
-            let rise = FRAC_2_SQRT_PI * scale * libm::exp(-t * t);
-            (sine, cosine, across, along, libm::erf(t), rise)
+            (sine, cosine, across, along)
         };
         let [a, b] = self.angles_rad.map(edge);
-        // Derivatives by the distances from the edges.
-        let (by_a, by_b) = (self.contrast * a.5 * b.4, self.contrast * a.4 * b.5);
+        let term = self.term([a.2, b.2]);
+        let [by_a, by_b] = term.by_distance.map(|by| self.contrast * by);
         let derivatives = SVector::from([
             by_a * a.0 + by_b * b.0,
             -by_a * a.1 - by_b * b.1,
             -by_a * a.3,
             -by_b * b.3,
-            -(by_a * a.2 + by_b * b.2) / self.blur_px,
+            self.contrast * term.by_blur,
             1.0,
-            a.4 * b.4,
+            term.value,
             x,
             y,
         ]);
-        let gray = self.middle + self.contrast * a.4 * b.4 + self.slope.x * x + self.slope.y * y;
+        let gray = self.middle + self.contrast * term.value + self.slope.x * x + self.slope.y * y;
         (gray, derivatives)
+    }
+
+    /// Returns the factor of the contrast at signed distances from the edges.
+    fn term(&self, [a, b]: [f64; 2]) -> Term {
+        let scale = FRAC_1_SQRT_2 / self.blur_px;
+        // Φ at a signed distance, and its derivative.
+        let step = |across: f64| {
+            let t = across * scale;
+            (libm::erf(t), FRAC_2_SQRT_PI * scale * libm::exp(-t * t))
+        };
+        let ((at_a, rise_a), (at_b, rise_b)) = (step(a), step(b));
+        let mut term = Term {
+            by_distance: [rise_a * at_b, at_a * rise_b],
+            by_blur: -(rise_a * at_b * a + at_a * rise_b * b) / self.blur_px,
+            value: at_a * at_b,
+        };
+        let Some(Insets {
+            margins_px,
+            are_where_signs_agree,
+        }) = self.insets
+        else {
+            return term;
+        };
+        for sign_a in [1.0, -1.0] {
+            let sign_b = if are_where_signs_agree {
+                sign_a
+            } else {
+                -sign_a
+            };
+            let (inside_a, inside_b) = (sign_a * a - margins_px[0], sign_b * b - margins_px[1]);
+            let ((at_a, rise_a), (at_b, rise_b)) = (step(inside_a), step(inside_b));
+            // Bright quadrants have the value 1 or -1, and the insets that of the dark ones.
+            let depth = if are_where_signs_agree { -0.5 } else { 0.5 };
+            let (by_a, by_b) = (depth * rise_a * (1.0 + at_b), depth * (1.0 + at_a) * rise_b);
+            term.by_distance[0] += sign_a * by_a;
+            term.by_distance[1] += sign_b * by_b;
+            term.by_blur -= (by_a * inside_a + by_b * inside_b) / self.blur_px;
+            term.value += depth * (1.0 + at_a) * (1.0 + at_b);
+        }
+        term
     }
 
     /// Fits middle and contrast by linear least squares, with fixed edges.
@@ -121,6 +178,7 @@ impl FixedProblem<9> for Problem<'_> {
             middle: crossing.middle + step[5],
             contrast: crossing.contrast + step[6],
             slope: crossing.slope + Vector2::new(step[7], step[8]),
+            insets: crossing.insets,
         }
     }
 }
@@ -128,7 +186,7 @@ impl FixedProblem<9> for Problem<'_> {
 /// Fits the corner near a position to the pixels of a disk around it; `None` if there is no corner.
 ///
 /// * `edges`: approximate directions of the two edges
-/// * `radius_px`: radius of the disk, which must stay within the four squares
+/// * `radius_px`: radius of the disk, which must show nothing but the four squares and `insets`
 ///
 /// Source: least squares; the profile of an edge is a step blurred by a Gaussian.
 pub(super) fn fit_crossing(
@@ -136,6 +194,7 @@ pub(super) fn fit_crossing(
     near: &Point2<f64>,
     edges: [Vector2<f64>; 2],
     radius_px: f64,
+    insets: Option<Insets>,
 ) -> Option<Point2<f64>> {
     let (width, height) = (i64::from(image.width()), i64::from(image.height()));
     let (u0, v0) = (near.x.round(), near.y.round());
@@ -162,6 +221,7 @@ pub(super) fn fit_crossing(
         middle: 0.0,
         contrast: 1.0,
         slope: Vector2::zeros(),
+        insets,
     }
     .with_levels(&samples);
     let options = LmOptions {
@@ -228,6 +288,16 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_differences() {
+        let insets = [false, true].map(|are_where_signs_agree| Insets {
+            margins_px: [1.0, 1.3],
+            are_where_signs_agree,
+        });
+        for insets in [None, Some(insets[0]), Some(insets[1])] {
+            check_derivatives(insets);
+        }
+    }
+
+    fn check_derivatives(insets: Option<Insets>) {
         let crossing = Crossing {
             place: Vector2::new(0.2, -0.3),
             angles_rad: [0.1, 1.9],
@@ -235,6 +305,7 @@ mod tests {
             middle: 0.5,
             contrast: -0.4,
             slope: Vector2::new(0.01, -0.02),
+            insets,
         };
         let samples: Vec<Sample> = (0..25)
             .map(|k| [f64::from(k % 5) - 2.1, f64::from(k / 5) - 1.8, 0.0])
@@ -265,7 +336,7 @@ mod tests {
                 Vector2::new(cosine, sine)
             };
             let near = truth + Vector2::new(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
-            let found = fit_crossing(&image, &near, angles.map(direction), 9.0).unwrap();
+            let found = fit_crossing(&image, &near, angles.map(direction), 9.0, None).unwrap();
             sum_sq += (found - truth).norm_squared();
             count += 1.0;
         }
@@ -287,10 +358,10 @@ mod tests {
         let mut random = Random::new(2);
         let noise = GrayImage32::from_fn(31, 31, |_, _| Luma([random.uniform(0.0, 1.0) as f32]));
         for image in [&flat, &edge, &noise] {
-            assert_eq!(fit_crossing(image, &middle, edges, 9.0), None);
+            assert_eq!(fit_crossing(image, &middle, edges, 9.0, None), None);
         }
         let outside = Point2::new(-40.0, 15.0);
-        assert_eq!(fit_crossing(&flat, &outside, edges, 9.0), None);
+        assert_eq!(fit_crossing(&flat, &outside, edges, 9.0, None), None);
     }
 
     #[test]

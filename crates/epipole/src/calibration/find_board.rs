@@ -136,7 +136,7 @@ fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<Boar
         let spacing = view.spacing(mark, columns).unwrap_or(10.0);
         let edges = edges_through(pixel, beside(view, mark, columns));
         pixels.push(match edges {
-            Some(edges) => refine_mark(image, pixel, edges, spacing, &CLEAR_SQUARES)?,
+            Some(edges) => refine_mark(image, pixel, edges, spacing, &CLEAR_SQUARES, None)?,
             None => None,
         });
     }

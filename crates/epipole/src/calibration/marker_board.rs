@@ -287,6 +287,46 @@ mod tests {
         }
     }
 
+    /// Sharp and blurred, with small markers and large ones.
+    #[test]
+    fn corners_are_as_exact_as_those_of_chessboards() {
+        let rms_px = |pattern: Pattern, blur_px: f64| {
+            let board = Board::new(pattern, 7, 5, 0.03).unwrap();
+            let (mut sum_sq, mut count) = (0.0, 0);
+            for (seed, pose) in poses(&board, 6, 11.0, 3).iter().enumerate() {
+                let truth = true_view(&board, &camera(), pose);
+                let is_inside =
+                    |p: &Point2<f64>| (30.0..610.0).contains(&p.x) && (30.0..450.0).contains(&p.y);
+                if !truth.pixels.iter().flatten().all(is_inside) {
+                    continue;
+                }
+                let image =
+                    render_board(&board, &camera(), pose, 0.01, seed as u64, &mut ()).unwrap();
+                let image = gaussian_blur(&image, blur_px, Border::Replicate, &mut ()).unwrap();
+                let (seen, _, rms) = search(&image, &board, pose);
+                sum_sq += rms * rms * seen as f64;
+                count += seen;
+            }
+            (count, libm::sqrt(sum_sq / count as f64))
+        };
+        for (blur_px, marker_ratios) in
+            [(0.5, [0.5, 0.75]), (1.5, [0.5, 0.85]), (2.0, [0.75, 0.85])]
+        {
+            let (_, chessboard_px) = rms_px(Pattern::Chessboard, blur_px);
+            for marker_ratio in marker_ratios {
+                let charuco = Pattern::Charuco {
+                    dictionary: MarkerDictionary::Aruco4x4_50,
+                    marker_ratio,
+                };
+                let (count, charuco_px) = rms_px(charuco, blur_px);
+                assert!(
+                    count > 100 && charuco_px < 0.025 && charuco_px < 2.5 * chessboard_px,
+                    "{blur_px} {marker_ratio}: {count} {charuco_px} {chessboard_px}"
+                );
+            }
+        }
+    }
+
     /// Two fifths of the board, from the left or from above.
     #[test]
     fn hidden_parts_are_left_out() {

@@ -1,6 +1,7 @@
 //! Search for the marks of a board from their neighbors.
 
-use super::board_markers::BoardMarkers;
+use super::board_markers::{BoardMarkers, MarkerInsets};
+use super::crossing::Insets;
 use super::refine_mark::{Reach, refine_mark};
 use super::{Board, BoardView};
 use crate::Result;
@@ -17,6 +18,9 @@ const NEIGHBORS: core::ops::RangeInclusive<usize> = 5..=10;
 const MOST_STRAYED: (f64, f64) = (0.3, 8.0);
 /// Minimum difference of bright and dark around a mark, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.04;
+/// Distance at which the quadrants are compared, relative to the nearest other edge.
+const COLORS_AT: f64 = 0.5;
+const LEAST_COLORS_AT_PX: f64 = 2.0;
 /// Maximum difference of opposite quadrants, relative to the contrast.
 const MOST_UNEVEN: f64 = 0.6;
 
@@ -26,6 +30,9 @@ pub(super) struct NearMarks<'a> {
     board: &'a Board,
     /// Reach relative to a square.
     reach: Reach,
+    /// Distance from a mark to the nearest edge other than its own two, squares.
+    clear: f64,
+    insets: Option<MarkerInsets>,
     pixels: Vec<Option<Point2<f64>>>,
 }
 
@@ -34,7 +41,12 @@ impl<'a> NearMarks<'a> {
         Self {
             image,
             board,
-            reach: Reach::within(markers.clear),
+            reach: Reach::within(
+                markers.clear,
+                (markers.insets).map_or(markers.clear, |insets| insets.clear),
+            ),
+            clear: markers.clear,
+            insets: markers.insets,
             pixels: vec![None; board.num_marks()],
         }
     }
@@ -76,9 +88,22 @@ impl<'a> NearMarks<'a> {
             return Ok(None);
         };
         let spacing = steps[0].norm().min(steps[1].norm());
-        let refined = refine_mark(self.image, &pixel, steps, spacing, &self.reach)?;
-        let radius_px = self.reach.disk_px(spacing);
+        let area = steps[0].perp(&steps[1]).abs();
+        let insets = self.insets.map(|insets| Insets {
+            margins_px: steps.map(|step| insets.margin * area / step.norm()),
+            // The signs differ between both steps, and between their opposites.
+            are_where_signs_agree: self.is_dark_between_steps(mark),
+        });
+        let refined = refine_mark(self.image, &pixel, steps, spacing, &self.reach, insets)?;
+        let radius_px = (COLORS_AT * self.clear * spacing).max(LEAST_COLORS_AT_PX);
         Ok(refined.filter(|pixel| self.has_right_colors(mark, pixel, &steps, radius_px)))
+    }
+
+    /// Whether the quadrant between the steps along both axes is dark. Squares with an even sum of
+    /// column and row are; so are the quadrants at tags.
+    fn is_dark_between_steps(&self, mark: usize) -> bool {
+        let columns = self.board.columns();
+        (mark % columns + mark / columns) % 2 == 0
     }
 
     /// Predicts the pixel of a mark, and that of a step of one square along the board's axes there;
@@ -114,13 +139,11 @@ impl<'a> NearMarks<'a> {
     ) -> bool {
         let [a, b] = steps.map(|step| step.normalize());
         let gray = |direction: Vector2<f64>| {
-            let p = pixel + direction.normalize() * (0.7 * radius_px);
+            let p = pixel + direction.normalize() * radius_px;
             f64::from(sample_bilinear(self.image, p.x, p.y, Border::Replicate))
         };
         let mut pairs = [[gray(a + b), gray(-a - b)], [gray(a - b), gray(b - a)]];
-        // Squares with an even sum of column and row are dark; so are the quadrants at tags.
-        let columns = self.board.columns();
-        if (mark % columns + mark / columns) % 2 == 1 {
+        if !self.is_dark_between_steps(mark) {
             pairs.swap(0, 1);
         }
         let [dark, bright] = pairs;

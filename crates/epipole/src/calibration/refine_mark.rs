@@ -1,6 +1,6 @@
 //! Sub-pixel refinement of a corner of four squares.
 
-use super::crossing::fit_crossing;
+use super::crossing::{Insets, fit_crossing};
 use crate::Result;
 use crate::feature::{RefineOptions, refine_corners};
 use crate::imaging::GrayImage32;
@@ -31,15 +31,21 @@ pub(super) const CLEAR_SQUARES: Reach = Reach {
     stay: 0.25,
 };
 
+/// Radius of a disk relative to the distance of what must stay outside, as blur widens it.
+const OF_CLEAR: f64 = 0.75;
+
 impl Reach {
-    /// Returns the reach for marks with nothing but their two edges within `clear`, relative to the
-    /// distance to the nearest mark.
-    pub(super) fn within(clear: f64) -> Self {
-        // A window is wider at its corners.
-        let disk = (0.75 * clear).min(CLEAR_SQUARES.disk);
+    /// Returns the reach around marks beside markers.
+    ///
+    /// * `clear`: distance from a mark to the nearest edge other than its own two, relative to the
+    ///   distance to the nearest mark
+    /// * `clear_beside_insets`: the same if the edges of insets do not count
+    pub(super) fn within(clear: f64, clear_beside_insets: f64) -> Self {
+        let disk = |clear: f64| (OF_CLEAR * clear).min(CLEAR_SQUARES.disk);
         Self {
-            window: (0.8 * disk).min(CLEAR_SQUARES.window),
-            disk,
+            // A window is wider at its corners.
+            window: (0.8 * disk(clear)).min(CLEAR_SQUARES.window),
+            disk: disk(clear_beside_insets),
             stay: clear.min(CLEAR_SQUARES.stay),
         }
     }
@@ -50,8 +56,8 @@ impl Reach {
     }
 }
 
-/// Refines the corner near a pixel: by gradients, and from there by two edges fitted to the gray
-/// values. `None` if there is none, or another object is near.
+/// Refines the corner near a pixel: by gradients, unless there are insets, and from there by two
+/// edges fitted to the gray values. `None` if there is none, or another object is near.
 ///
 /// * `edges`: approximate directions of the two edges
 /// * `spacing`: distance to the nearest mark, pixels
@@ -61,18 +67,37 @@ pub(super) fn refine_mark(
     edges: [Vector2<f64>; 2],
     spacing: f64,
     reach: &Reach,
+    insets: Option<Insets>,
+) -> Result<Option<Point2<f64>>> {
+    // Gradients at insets, which blur blends with the edges, would pull the start away.
+    let start = match insets {
+        Some(_) => Some(*pixel),
+        None => by_gradients(image, pixel, spacing, reach)?,
+    };
+    // A corner that the edges do not confirm may be the rim of an occluder.
+    Ok(start.and_then(|start| {
+        let agreement = match insets {
+            Some(_) => reach.stay,
+            None => AGREEMENT,
+        };
+        let agreement_px = (agreement * spacing).max(LEAST_AGREEMENT_PX);
+        fit_crossing(image, &start, edges, reach.disk_px(spacing), insets)
+            .filter(|place| (place - start).norm() <= agreement_px)
+    }))
+}
+
+/// Refines the corner near a pixel by gradients.
+fn by_gradients(
+    image: &GrayImage32,
+    pixel: &Point2<f64>,
+    spacing: f64,
+    reach: &Reach,
 ) -> Result<Option<Point2<f64>>> {
     let options = RefineOptions {
         half_window: ((reach.window * spacing) as usize).clamp(WINDOWS.0, WINDOWS.1),
         max_iterations: 60,
         tolerance_px: 1e-4,
     };
-    let by_gradients = refine_corners(image, &[*pixel], &options, &mut ())?[0]
-        .filter(|refined| (refined - pixel).norm() < reach.stay * spacing);
-    // A corner that the edges do not confirm may be the rim of an occluder.
-    Ok(by_gradients.and_then(|start| {
-        let agreement_px = (AGREEMENT * spacing).max(LEAST_AGREEMENT_PX);
-        fit_crossing(image, &start, edges, reach.disk_px(spacing))
-            .filter(|place| (place - start).norm() <= agreement_px)
-    }))
+    let refined = refine_corners(image, &[*pixel], &options, &mut ())?[0];
+    Ok(refined.filter(|refined| (refined - pixel).norm() < reach.stay * spacing))
 }
