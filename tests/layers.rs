@@ -86,7 +86,7 @@ const MODULES_OF_SCENES: &[&str] = &[
     "light",
     "scene",
     "sets",
-    "photograph",
+    "rendering",
 ];
 
 /// The modules of the readers and writers, likewise.

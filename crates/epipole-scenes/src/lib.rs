@@ -24,20 +24,20 @@
 //! | `light` | a window, soft light, and maps of both |
 //! | `scene` | bodies with their light, rays through them |
 //! | `sets` | the three scenes |
-//! | `photograph` | rendering and reprojection |
+//! | `rendering` | rendering and reprojection |
 
 mod detail;
 mod gradual;
 mod light;
 mod objects;
 mod paint;
-mod photograph;
+mod rendering;
 mod scene;
 mod sets;
 mod shape;
 
-pub use photograph::reproject::{Moved, Reprojected};
-pub use photograph::{Photograph, Sampling};
+pub use rendering::reproject::{Moved, Reprojected};
+pub use rendering::{Photograph, Sampling};
 pub use scene::Scene;
 pub use scene::rays::{Hit, Transfer};
 pub use sets::{

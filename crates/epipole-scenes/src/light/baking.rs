@@ -72,8 +72,8 @@ impl Shading {
         let cells = detail.side(DECAL_CELLS);
         // Fades out, so that the edge of the square is not visible.
         let rim = |i: usize| {
-            let share = DECAL_CELLS as f32 / cells as f32;
-            (i.min(cells - 1 - i) as f32 * share / 3.0).min(1.0)
+            let ratio = DECAL_CELLS as f32 / cells as f32;
+            (i.min(cells - 1 - i) as f32 * ratio / 3.0).min(1.0)
         };
         while self.factors.len() < cells * cells {
             *num_cells = num_cells.checked_sub(1)?;

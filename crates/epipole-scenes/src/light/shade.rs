@@ -33,10 +33,10 @@ fn window_places(lighting: &Lighting) -> [Vector3<f64>; 16] {
 /// Returns directions of the upper half space with cosine-weighted density.
 fn dome() -> [Vector3<f64>; 14] {
     std::array::from_fn(|i| {
-        let share = (i as f64 + 0.5) / 14.0;
+        let fraction = (i as f64 + 0.5) / 14.0;
         let (sin, cos) = libm::sincos(i as f64 * 2.399_963_229_728_653);
-        let r = share.sqrt();
-        Vector3::new(r * cos, r * sin, (1.0 - share).sqrt())
+        let r = fraction.sqrt();
+        Vector3::new(r * cos, r * sin, (1.0 - fraction).sqrt())
     })
 }
 
@@ -82,7 +82,7 @@ impl<'a> Shade<'a> {
         let to_center = self.lighting.center - origin;
         let distance_sq = to_center.norm_squared();
         let spread = length(&(self.lighting.half_u + self.lighting.half_v));
-        let mut near: Vec<&Body> = Vec::new();
+        let mut nearby: Vec<&Body> = Vec::new();
         for (index, caster, center, radius) in &self.casters {
             if *index == own && !body.hollow {
                 continue;
@@ -97,11 +97,11 @@ impl<'a> Shade<'a> {
             let along = ((center - origin).dot(&to_center) / distance_sq).clamp(0.0, 1.0);
             let off = length(&(center - (origin + to_center * along)));
             if off < radius + spread * along.max(0.02) {
-                near.push(caster);
+                nearby.push(caster);
             }
         }
         let placed = Placement::as_built();
-        let (mut lit, mut seen) = (0.0, 0.0);
+        let (mut lit, mut visible) = (0.0, 0.0);
         for place in &self.places {
             let direction = place - origin;
             let cosine = n.dot(&direction) / length(&direction);
@@ -109,35 +109,35 @@ impl<'a> Shade<'a> {
                 continue;
             }
             let ray = Ray { origin, direction };
-            if near
+            if nearby
                 .iter()
                 .all(|caster| caster.meet(&ray, &placed, 1e-9, 0.999).is_none())
             {
                 lit += cosine;
-                seen += 1.0;
+                visible += 1.0;
             }
         }
         let strength = self
             .lighting
             .reference_m
             .map_or(1.0, |reference| reference * reference / distance_sq);
-        (lit / 16.0 * strength, seen / 16.0)
+        (lit / 16.0 * strength, visible / 16.0)
     }
 
     /// Returns the openness of a surface point's surroundings, 0 to 1, by comparing heights above
     /// the surface with distances to nearby proxies (after Evans 2006).
     fn openness(&self, own: usize, p: &Vector3<f64>, n: &Vector3<f64>) -> f32 {
         let reach = PROBES[PROBES.len() - 1].0 * 2.0;
-        let mut near: Vec<&Proxy> = Vec::new();
+        let mut nearby: Vec<&Proxy> = Vec::new();
         for (index, proxy) in &self.proxies {
             if *index != own && proxy.distance(p) < reach {
-                near.push(proxy);
+                nearby.push(proxy);
             }
         }
         let mut open = 1.0;
         for (height, weight) in PROBES {
             let probe = p + n * height;
-            let distance = near
+            let distance = nearby
                 .iter()
                 .fold(height, |least, proxy| proxy.distance(&probe).min(least))
                 .max(0.0);
@@ -171,7 +171,7 @@ impl<'a> Shade<'a> {
 
     /// Returns the light at a point of a surface.
     fn at(&self, own: usize, body: &Body, p: &Vector3<f64>, n: &Vector3<f64>) -> [f32; 4] {
-        let (lit, seen) = self.window(own, body, p, n);
+        let (lit, visible) = self.window(own, body, p, n);
         let mut open = self.openness(own, p, n);
         if body.hollow {
             open *= 0.25 + 0.75 * self.own_openness(body, p, n);
@@ -184,7 +184,7 @@ impl<'a> Shade<'a> {
             key[0] + soft[0] * shade[0],
             key[1] + soft[1] * shade[1],
             key[2] + soft[2] * shade[2],
-            seen as f32,
+            visible as f32,
         ]
     }
 
@@ -208,7 +208,7 @@ impl<'a> Shade<'a> {
     pub(super) fn darker(&self, x_m: f64, z_m: f64, ground: &Body) -> [f32; 2] {
         let p = Vector3::new(x_m, 0.0, z_m);
         let up = Vector3::new(0.0, -1.0, 0.0);
-        let (_, seen) = self.window(usize::MAX, ground, &p, &up);
-        [seen as f32, self.openness(usize::MAX, &p, &up)]
+        let (_, visible) = self.window(usize::MAX, ground, &p, &up);
+        [visible as f32, self.openness(usize::MAX, &p, &up)]
     }
 }

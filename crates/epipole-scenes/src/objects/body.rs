@@ -156,7 +156,7 @@ impl Body {
     }
 
     /// Rotates about the vertical axis; positive turns x toward z.
-    pub(crate) fn turned(self, yaw_rad: f64) -> Self {
+    pub(crate) fn yawed(self, yaw_rad: f64) -> Self {
         self.rotated(yaw_rad, 0.0)
     }
 
@@ -206,7 +206,7 @@ impl Body {
 
     /// Sets its proxies, given relative to its center.
     #[inline(never)]
-    pub(crate) fn standing_for(mut self, proxies: &[Proxy]) -> Self {
+    pub(crate) fn with_proxies(mut self, proxies: &[Proxy]) -> Self {
         self.proxies = proxies
             .iter()
             .map(|proxy| proxy.moved(&self.center))

@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn far_away_everything_is_the_mean() {
+    fn far_away_the_texture_is_its_mean() {
         let texture = noisy();
         let color = texture.sample(0.3, 0.9, 99.0, true);
         assert!((color[0] - 2.0 * color[1]).abs() < 0.01, "{color:?}");

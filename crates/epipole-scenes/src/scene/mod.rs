@@ -134,14 +134,14 @@ impl Scene {
     /// Returns the bytes of textures and light maps, each texture counted once.
     #[cfg(test)]
     pub(crate) fn bytes(&self) -> usize {
-        let mut seen = Vec::new();
+        let mut visible = Vec::new();
         let mut bytes = 0;
         for ((body, _), lights) in self.placed().zip(self.lights(Detail::Full)) {
             bytes += lights.iter().map(|light| light.bytes()).sum::<usize>();
             for paint in &body.paints {
                 let address = Arc::as_ptr(&paint.texture);
-                if !seen.contains(&address) {
-                    seen.push(address);
+                if !visible.contains(&address) {
+                    visible.push(address);
                     bytes += paint.texture.bytes();
                 }
             }

@@ -168,7 +168,7 @@ mod tests {
             z_m: 1.7,
         };
         let scenes = [Scene::still_life(), Scene::long_table(ball).unwrap()];
-        let mut num_things = 0;
+        let mut num_objects = 0;
         for scene in &scenes {
             for _ in 0..4000 {
                 let mut point = |reach: f64| Vector3::from_fn(|_, _| random.uniform(-reach, reach));
@@ -187,10 +187,10 @@ mod tests {
                     found.map(|(along, _)| along),
                     nearest.map(|(along, _)| along)
                 );
-                num_things += usize::from(found.is_some_and(|(_, name)| name != "the wall"));
+                num_objects += usize::from(found.is_some_and(|(_, name)| name != "the wall"));
             }
         }
-        assert!(num_things > 1000, "{num_things}");
+        assert!(num_objects > 1000, "{num_objects}");
     }
 
     /// Asserts that transferred points obey x2ᵀ F x1 = 0 with F from the cameras, and transfer back

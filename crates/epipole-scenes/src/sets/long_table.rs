@@ -271,7 +271,7 @@ mod tests {
     use crate::{Sampling, Transfer, long_table_camera};
     use nalgebra::{Point2, Point3};
 
-    fn thing(kind: MovableKind, x_m: f64, z_m: f64) -> MovableObject {
+    fn object(kind: MovableKind, x_m: f64, z_m: f64) -> MovableObject {
         MovableObject { kind, x_m, z_m }
     }
 
@@ -281,7 +281,7 @@ mod tests {
         let left = long_table_camera(0.0, 640, 480).unwrap();
         let right = long_table_camera(0.12, 640, 480).unwrap();
         for z_m in [1.0, 3.0, 7.5] {
-            let scene = Scene::long_table(thing(MovableKind::Ball, 0.0, z_m)).unwrap();
+            let scene = Scene::long_table(object(MovableKind::Ball, 0.0, z_m)).unwrap();
             let front = Point3::new(0.0, TABLE_Y - 0.11, z_m - 0.11);
             let pixel1 = left.project(&front).unwrap();
             let Transfer::Visible { pixel2, x_in_world } = scene.transfer(&left, &right, &pixel1)
@@ -297,10 +297,10 @@ mod tests {
     }
 
     #[test]
-    fn moving_the_thing_changes_only_its_surroundings() {
+    fn moving_the_object_changes_only_its_surroundings() {
         let camera = long_table_camera(0.0, 160, 120).unwrap();
         let render = |x_m: f64| {
-            Scene::long_table(thing(MovableKind::Mug, x_m, 2.0))
+            Scene::long_table(object(MovableKind::Mug, x_m, 2.0))
                 .unwrap()
                 .render(&camera, 160, 120, Sampling::Draft)
                 .unwrap()
@@ -317,10 +317,10 @@ mod tests {
 
     /// Asserts that the object darkens the table on the side away from the light.
     #[test]
-    fn the_thing_has_a_shadow() {
+    fn the_object_has_a_shadow() {
         let camera = long_table_camera(0.0, 320, 240).unwrap();
         let brightness = |z_m: f64, at: Point3<f64>| {
-            let scene = Scene::long_table(thing(MovableKind::Ball, 0.0, z_m)).unwrap();
+            let scene = Scene::long_table(object(MovableKind::Ball, 0.0, z_m)).unwrap();
             let picture = scene.render(&camera, 320, 240, Sampling::Draft).unwrap();
             let pixel: Point2<f64> = camera.project(&at).unwrap();
             let color = picture.image[(pixel.x as u32, pixel.y as u32)].0;
@@ -338,7 +338,7 @@ mod tests {
             (0.0, 0.1),
             (2.0, 2.0),
         ] {
-            assert!(Scene::long_table(thing(MovableKind::Ball, x_m, z_m)).is_err());
+            assert!(Scene::long_table(object(MovableKind::Ball, x_m, z_m)).is_err());
         }
         assert!(long_table_camera(f64::NAN, 640, 480).is_err());
     }

@@ -108,7 +108,7 @@ fn lighting() -> Lighting {
 fn build() -> Scene {
     let mut bodies = room();
     bodies.extend(table());
-    bodies.extend(things());
+    bodies.extend(objects());
     Scene {
         fixed: Arc::new(Fixed::new(bodies, lighting())),
         movable: None,
@@ -217,7 +217,7 @@ fn table() -> Vec<Body> {
 }
 
 /// Builds the objects on the table.
-fn things() -> Vec<Body> {
+fn objects() -> Vec<Body> {
     let props = Props::shared();
     let cloth = Arc::new(paint::block_print(
         props.noise,
@@ -231,7 +231,7 @@ fn things() -> Vec<Body> {
             CLOTH_CENTER,
             &print.clone().repeated(1.0, 0.01),
         )
-        .turned(CLOTH_YAW_RAD)
+        .yawed(CLOTH_YAW_RAD)
         .painted(TOP, &print.lit(72, 52))
         .painted(FRONT, &Paint::new(&cloth).repeated(1.0, 0.01)),
     ];

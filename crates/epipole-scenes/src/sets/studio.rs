@@ -160,7 +160,7 @@ fn table() -> Vec<Body> {
             [TABLE_WIDTH / 2.0 - 0.16, -0.0002, f64::from(meters)],
             &plate,
         );
-        bodies.push(plate.turned(std::f64::consts::FRAC_PI_2));
+        bodies.push(plate.yawed(std::f64::consts::FRAC_PI_2));
     }
     bodies
 }
@@ -229,13 +229,13 @@ mod tests {
 
     /// Asserts identical bytes for all distances.
     #[test]
-    fn a_mug_that_grows_with_its_distance_makes_one_photograph() {
+    fn a_mug_scaled_with_its_distance_has_one_image() {
         let camera = camera1(320, 240);
         for sampling in [Sampling::Draft, Sampling::Full] {
-            let photograph = |z_m: f64| grown(z_m).render(&camera, 320, 240, sampling).unwrap();
-            let first = photograph(0.5);
+            let render = |z_m: f64| grown(z_m).render(&camera, 320, 240, sampling).unwrap();
+            let first = render(0.5);
             for z_m in [0.55, 0.8, 1.0, 1.3, 1.75, 2.1, 2.5] {
-                let other = photograph(z_m);
+                let other = render(z_m);
                 assert!(first.image == other.image, "{z_m} m, {sampling:?}");
                 assert!(first.depth_m != other.depth_m);
             }
@@ -245,15 +245,15 @@ mod tests {
     /// Asserts that moving or growing alone changes the photograph, so that the test above can
     /// fail.
     #[test]
-    fn a_mug_that_only_moves_or_only_grows_changes_the_photograph() {
+    fn a_mug_that_only_moves_or_only_grows_changes_the_image() {
         let camera = camera1(160, 120);
-        let photograph = |z_m: f64, height_m: f64| {
+        let render = |z_m: f64, height_m: f64| {
             let scene = Scene::studio([0.1 * z_m, z_m], height_m).unwrap();
             scene.render(&camera, 160, 120, Sampling::Draft).unwrap()
         };
-        let first = photograph(1.0, 0.2).image;
+        let first = render(1.0, 0.2).image;
         for (z_m, height_m) in [(1.1, 0.2), (1.0, 0.22)] {
-            let other = photograph(z_m, height_m).image;
+            let other = render(z_m, height_m).image;
             let differences = first.iter().zip(other.iter());
             assert!(differences.filter(|(a, b)| a.abs_diff(**b) > 20).count() > 100);
         }
@@ -261,7 +261,7 @@ mod tests {
 
     /// Asserts that the axis of a mug is imaged with height f H / Z.
     #[test]
-    fn heights_are_seen_as_by_similar_triangles() {
+    fn heights_follow_similar_triangles() {
         let camera = camera1(640, 480);
         let (z_m, height_m) = (2.0, 0.3);
         let rows = [0.0, -height_m].map(|y| {

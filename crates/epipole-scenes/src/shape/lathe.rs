@@ -1,7 +1,7 @@
 //! Lathed bodies: a profile rotated about the vertical axis, such as mugs, jugs and fruit.
 
 use super::profile::Profile;
-use super::ray::{Contact, Place, Ray, turns};
+use super::ray::{Contact, Place, Ray, angle_fraction};
 use epipole::math::length;
 use nalgebra::{Vector2, Vector3};
 
@@ -18,7 +18,7 @@ struct Segment {
     normal_end: Vector2<f64>,
     /// Length of the profile up to the start, and of the segment, as fractions of the whole.
     before: f64,
-    share: f64,
+    fraction: f64,
 }
 
 /// A lathed body. Its axis is vertical, height is −y, and (s, t) are the angle about the axis in
@@ -73,7 +73,7 @@ impl Lathe {
                     normal_start: at_vertex(i, i),
                     normal_end: at_vertex(i + 1, i),
                     before: before / length,
-                    share: lengths[i] / length,
+                    fraction: lengths[i] / length,
                 };
                 before += lengths[i];
                 segment
@@ -95,7 +95,7 @@ impl Lathe {
     /// Returns radius and height at a fraction `t` of the profile's length.
     pub(crate) fn profile_at(&self, t: f64) -> Vector2<f64> {
         let segment = self.segment_at(t);
-        let part = ((t - segment.before) / segment.share).clamp(0.0, 1.0);
+        let part = ((t - segment.before) / segment.fraction).clamp(0.0, 1.0);
         segment.start + (segment.end - segment.start) * part
     }
 
@@ -194,10 +194,11 @@ impl Lathe {
         let segment = &self.segments[part as usize];
         let radius = (point.x * point.x + point.z * point.z).sqrt();
         let along = segment.end - segment.start;
-        let share = ((radius - segment.start.x) * along.x + (-point.y - segment.start.y) * along.y)
+        let fraction = ((radius - segment.start.x) * along.x
+            + (-point.y - segment.start.y) * along.y)
             / along.norm_squared();
-        let share = share.clamp(0.0, 1.0);
-        let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * share;
+        let fraction = fraction.clamp(0.0, 1.0);
+        let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * fraction;
         let flat = flat / length(&flat);
         let (cos, sin) = if radius > 1e-12 {
             (point.x / radius, point.z / radius)
@@ -206,8 +207,8 @@ impl Lathe {
         };
         Place {
             chart: 0,
-            s: turns(point.x, point.z),
-            t: segment.before + segment.share * share,
+            s: angle_fraction(point.x, point.z),
+            t: segment.before + segment.fraction * fraction,
             normal: Vector3::new(flat.x * cos, -flat.y, flat.x * sin),
             // Near the axis s changes arbitrarily fast; filtering for it would also blur t.
             per_m: [
@@ -219,9 +220,9 @@ impl Lathe {
 
     pub(super) fn point(&self, s: f64, t: f64) -> (Vector3<f64>, Vector3<f64>) {
         let segment = self.segment_at(t);
-        let share = ((t - segment.before) / segment.share).clamp(0.0, 1.0);
-        let at = segment.start + (segment.end - segment.start) * share;
-        let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * share;
+        let fraction = ((t - segment.before) / segment.fraction).clamp(0.0, 1.0);
+        let at = segment.start + (segment.end - segment.start) * fraction;
+        let flat = segment.normal_start + (segment.normal_end - segment.normal_start) * fraction;
         let flat = flat / length(&flat);
         let (sin, cos) = libm::sincos(std::f64::consts::TAU * s);
         (

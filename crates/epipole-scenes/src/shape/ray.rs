@@ -38,7 +38,7 @@ pub(crate) struct Place {
 
 /// Returns the angle of (x, y) in turns, in [0, 1), to about 2·10⁻⁶ of a turn: enough for a texel,
 /// and several times faster than an exact arc tangent.
-pub(crate) fn turns(x: f64, y: f64) -> f64 {
+pub(crate) fn angle_fraction(x: f64, y: f64) -> f64 {
     let (ax, ay) = (x.abs(), y.abs());
     let (large, small) = if ax > ay { (ax, ay) } else { (ay, ax) };
     if large == 0.0 {
@@ -53,8 +53,8 @@ pub(crate) fn turns(x: f64, y: f64) -> f64 {
         * (0.5 / std::f64::consts::PI);
     let quarter = if ax > ay { eighth } else { 0.25 - eighth };
     let half = if x < 0.0 { 0.5 - quarter } else { quarter };
-    let turn = if y < 0.0 { 1.0 - half } else { half };
-    if turn < 1.0 { turn } else { 0.0 }
+    let fraction = if y < 0.0 { 1.0 - half } else { half };
+    if fraction < 1.0 { fraction } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -63,7 +63,7 @@ mod tests {
     use epipole::math::random::Random;
 
     #[test]
-    fn turns_are_close_to_the_arc_tangent() {
+    fn angle_fractions_are_close_to_the_arc_tangent() {
         let mut random = Random::new(4);
         for _ in 0..2000 {
             let (x, y) = (random.normal(), random.normal());
@@ -71,8 +71,8 @@ mod tests {
             if exact < 0.0 {
                 exact += 1.0;
             }
-            assert!((turns(x, y) - exact).abs() < 4e-6, "{x} {y}");
+            assert!((angle_fraction(x, y) - exact).abs() < 4e-6, "{x} {y}");
         }
-        assert_eq!(turns(0.0, 0.0), 0.0);
+        assert_eq!(angle_fraction(0.0, 0.0), 0.0);
     }
 }

@@ -1,6 +1,6 @@
 //! The handle of a mug: a stretched torus with one side hidden in the mug.
 
-use super::ray::{Contact, Place, Ray, turns};
+use super::ray::{Contact, Place, Ray, angle_fraction};
 use epipole::math::length;
 use nalgebra::Vector3;
 
@@ -105,8 +105,8 @@ impl Ring {
         let ring = (p.x * p.x + p.y * p.y).sqrt();
         Place {
             chart: 0,
-            s: turns(p.x, p.y),
-            t: turns(ring - self.major, p.z),
+            s: angle_fraction(p.x, p.y),
+            t: angle_fraction(ring - self.major, p.z),
             normal: normal / length(&normal),
             per_m: [
                 1.0 / (std::f64::consts::TAU * self.major),

@@ -26,7 +26,7 @@ impl Props {
         let leaves = Paint::new(&self.pages).repeated(3.0, 1.0).lit(16, 8);
         let at = |x: f64, y: f64, z: f64| placed(center, yaw_rad, [x, y, z]);
         let cuboid = |size: [f64; 3], middle: [f64; 3], paint: &Paint| {
-            Body::cuboid(name, size, middle, paint).turned(yaw_rad)
+            Body::cuboid(name, size, middle, paint).yawed(yaw_rad)
         };
         let top_paint = match &edition.cover {
             Some(cover) => Paint::new(cover).glossy(0.6).lit(24, 18),

@@ -19,8 +19,8 @@ impl Props {
             foot,
             &glaze,
         )
-        .turned(yaw_rad)
-        .standing_for(&[Proxy::Post {
+        .yawed(yaw_rad)
+        .with_proxies(&[Proxy::Post {
             center: Vector3::new(0.0, -height / 2.0, 0.0),
             radius,
             half_height: height / 2.0,
@@ -44,7 +44,7 @@ impl Props {
             placed(foot, yaw_rad, [offset, -0.53 * height, 0.0]),
             &handle,
         )
-        .turned(yaw_rad)
+        .yawed(yaw_rad)
         .hollow();
         vec![cup, handle]
     }
@@ -62,8 +62,8 @@ impl Props {
             foot,
             &Paint::new(&self.jug).glossy(1.0).lit(32, 44),
         )
-        .turned(yaw_rad)
-        .standing_for(&[
+        .yawed(yaw_rad)
+        .with_proxies(&[
             post(0.0, 0.03, 0.062),
             post(0.03, 0.20, 0.092),
             post(0.20, 0.34, 0.045),

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 impl Props {
     /// Creates an orange that rests on `foot`.
-    pub(crate) fn orange(&self, foot: [f64; 3], radius_m: f64, turn: [f64; 2]) -> Body {
+    pub(crate) fn orange(&self, foot: [f64; 3], radius_m: f64, rotation: [f64; 2]) -> Body {
         let shape = ball_profile(radius_m, radius_m * 0.95, 0.0);
         self.fruit(
             "an orange",
@@ -19,7 +19,7 @@ impl Props {
             &self.orange,
             foot,
             radius_m * 0.97,
-            turn,
+            rotation,
         )
     }
 
@@ -32,9 +32,9 @@ impl Props {
     }
 
     /// Creates a lemon that lies on `foot`.
-    pub(crate) fn lemon(&self, foot: [f64; 3], turn: [f64; 2]) -> Body {
+    pub(crate) fn lemon(&self, foot: [f64; 3], rotation: [f64; 2]) -> Body {
         let shape = ball_profile(0.030, 0.041, 0.007);
-        self.fruit("a lemon", shape, &self.lemon, foot, 0.0305, turn)
+        self.fruit("a lemon", shape, &self.lemon, foot, 0.0305, rotation)
     }
 
     fn fruit(
@@ -44,7 +44,7 @@ impl Props {
         texture: &Arc<Texture>,
         foot: [f64; 3],
         rest_m: f64,
-        turn: [f64; 2],
+        rotation: [f64; 2],
     ) -> Body {
         Body::new(
             name,
@@ -52,8 +52,8 @@ impl Props {
             [foot[0], foot[1] - rest_m, foot[2]],
             &Paint::new(texture).glossy(0.55).lit(24, 18),
         )
-        .rotated(turn[0], turn[1])
-        .standing_for(&[Proxy::Ball {
+        .rotated(rotation[0], rotation[1])
+        .with_proxies(&[Proxy::Ball {
             center: Vector3::zeros(),
             radius: rest_m,
         }])
@@ -97,8 +97,8 @@ impl Props {
             foot,
             &Paint::new(&self.apple).glossy(0.9).lit(28, 20),
         )
-        .turned(yaw_rad)
-        .standing_for(&[Proxy::Ball {
+        .yawed(yaw_rad)
+        .with_proxies(&[Proxy::Ball {
             center: Vector3::new(0.0, -radius_m, 0.0),
             radius: radius_m * 0.95,
         }])

@@ -20,7 +20,7 @@ impl Props {
                 placed(foot, yaw_rad, [0.0, -size_m[1] / 2.0, 0.0]),
                 &side,
             )
-            .turned(yaw_rad)
+            .yawed(yaw_rad)
             .boxed(),
             Body::cuboid(
                 name,
@@ -28,7 +28,7 @@ impl Props {
                 placed(foot, yaw_rad, [0.0, -size_m[1] - lid_m / 2.0, 0.0]),
                 &lid,
             )
-            .turned(yaw_rad)
+            .yawed(yaw_rad)
             .boxed(),
         ]
     }

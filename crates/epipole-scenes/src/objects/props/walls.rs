@@ -41,7 +41,7 @@ impl Props {
             middle,
             &side,
         )
-        .turned(yaw_rad)
+        .yawed(yaw_rad)
         .painted(FRONT, &Paint::new(texture).glossy(0.25).lit(16, 16))
         .boxed()
     }

@@ -130,7 +130,7 @@ impl Reprojected {
             } else {
                 for i in 0..4 {
                     target[i] = match four[i] {
-                        0 => closed(&self.pixels, width, 4 * index + i, &mut missing),
+                        0 => close_gap(&self.pixels, width, 4 * index + i, &mut missing),
                         pixel => rgb(pixel),
                     };
                 }
@@ -138,7 +138,7 @@ impl Reprojected {
         }
         let start = self.pixels.len() - rest.len();
         for (offset, target) in target_rest.iter_mut().enumerate() {
-            *target = closed(&self.pixels, width, start + offset, &mut missing);
+            *target = close_gap(&self.pixels, width, start + offset, &mut missing);
         }
     }
 }
@@ -216,7 +216,7 @@ fn is_amid_nothing(pixels: &[u32], width: usize, start: usize) -> bool {
 
 /// Returns the color of a pixel, or its neighbor's if it is a one-pixel gap; black if missing.
 #[inline]
-fn closed(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
+fn close_gap(pixels: &[u32], width: usize, index: usize, missing: &mut Missing<'_>) -> [u8; 3] {
     let at = |index: usize| pixels.get(index).copied().unwrap_or(0);
     let mut pixel = at(index);
     if pixel == 0 {

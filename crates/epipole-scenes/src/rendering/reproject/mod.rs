@@ -48,15 +48,15 @@ impl Photograph {
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole_scenes::{Reprojected, Sampling, Scene, still_life_camera};
     /// let camera = still_life_camera(64, 48);
-    /// let photograph = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
-    /// let mut seen = Reprojected::default();
-    /// photograph.reproject(&camera, &camera, None, &mut seen)?;
-    /// assert_eq!(seen.image(), &photograph.image);
+    /// let photo = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
+    /// let mut reprojected = Reprojected::default();
+    /// photo.reproject(&camera, &camera, None, &mut reprojected)?;
+    /// assert_eq!(reprojected.image(), &photo.image);
     /// // A camera that has moved sees something new.
     /// let mut other = camera;
     /// other.cam_from_world.translation.x -= 0.2;
-    /// photograph.reproject(&camera, &other, None, &mut seen)?;
-    /// assert!((100..1000).contains(&seen.num_missing()));
+    /// photo.reproject(&camera, &other, None, &mut reprojected)?;
+    /// assert!((100..1000).contains(&reprojected.num_missing()));
     /// # Ok(()) }
     /// ```
     pub fn reproject(
@@ -163,8 +163,8 @@ impl Photograph {
 
 impl Moved {
     /// Returns the outdated pixels, and the pixels of the object itself.
-    fn find(&self, photograph: &Photograph, camera: &PosedCamera) -> (Vec<u32>, Vec<u32>) {
-        let (width, height) = photograph.image.dimensions();
+    fn find(&self, photo: &Photograph, camera: &PosedCamera) -> (Vec<u32>, Vec<u32>) {
+        let (width, height) = photo.image.dimensions();
         let old = camera.cam_from_world * self.center;
         let new = camera.cam_from_world * (self.center + self.by);
         let reach_m = self.radius_m.max(self.stale_m);
@@ -179,7 +179,7 @@ impl Moved {
         for v in rows {
             for u in columns.clone() {
                 let index = v * width + u;
-                let depth_m = f64::from(photograph.depth_m.as_raw()[index as usize]);
+                let depth_m = f64::from(photo.depth_m.as_raw()[index as usize]);
                 let pixel = nalgebra::Point2::new(f64::from(u), f64::from(v));
                 let point = Point3::from(camera.camera.intrinsics.ray(&pixel) * depth_m);
                 if (point - old).norm_squared() <= radius_sq {
@@ -235,7 +235,7 @@ fn join(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::photograph::Sampling;
+    use crate::rendering::Sampling;
     use crate::scene::Scene;
     use crate::sets::{MovableKind, MovableObject, still_life_camera};
     use epipole::camera::{Camera, RigidTransform};
@@ -275,12 +275,12 @@ mod tests {
 
     /// Pairs of colors at pixels that are not missing.
     fn pairs<'a>(
-        seen: &'a Reprojected,
+        reprojected: &'a Reprojected,
         truth: &'a RgbImage,
     ) -> impl Iterator<Item = ([u8; 3], [u8; 3])> + 'a {
         let missing: std::collections::BTreeSet<u32> =
-            seen.missing.iter().cloned().flatten().collect();
-        let pixels = seen.image.pixels().zip(truth.pixels()).enumerate();
+            reprojected.missing.iter().cloned().flatten().collect();
+        let pixels = reprojected.image.pixels().zip(truth.pixels()).enumerate();
         pixels
             .filter(move |(index, _)| !missing.contains(&(*index as u32)))
             .map(|(_, (a, b))| (a.0, b.0))
@@ -289,13 +289,13 @@ mod tests {
     /// Asserts that the reprojection is close to a photograph from the new camera, much closer than
     /// a draft.
     #[test]
-    fn it_looks_like_a_photograph_from_there() {
+    fn it_looks_like_a_photo_from_there() {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
-        let photograph = render(&scene, &from);
-        let mut seen = Reprojected::default();
+        let photo = render(&scene, &from);
+        let mut reprojected = Reprojected::default();
         for (index, to) in places().iter().enumerate() {
-            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            photo.reproject(&from, to, None, &mut reprojected).unwrap();
             let truth = render(&scene, to).image;
             let mean = |pairs: &mut dyn Iterator<Item = ([u8; 3], [u8; 3])>| {
                 let (mut sum, mut count) = (0.0, 0.0);
@@ -305,7 +305,7 @@ mod tests {
                 }
                 sum / count
             };
-            let error = mean(&mut pairs(&seen, &truth));
+            let error = mean(&mut pairs(&reprojected, &truth));
             let mut draft = Reprojected::default();
             draft.clear(SIZE);
             let small = PosedCamera {
@@ -325,7 +325,10 @@ mod tests {
                 error < 0.6 * of_draft,
                 "{index}: {error}, a draft {of_draft}"
             );
-            assert!(seen.num_missing() < truth.len() / 3 * 45 / 100, "{index}");
+            assert!(
+                reprojected.num_missing() < truth.len() / 3 * 45 / 100,
+                "{index}"
+            );
         }
     }
 
@@ -335,27 +338,27 @@ mod tests {
     fn near_surfaces_cover_far_ones() {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
-        let mut photograph = render(&scene, &from);
-        let in_world = |camera: &PosedCamera, photograph: &Photograph, u: u32, v: u32| {
+        let mut photo = render(&scene, &from);
+        let in_world = |camera: &PosedCamera, photo: &Photograph, u: u32, v: u32| {
             let pixel = Point2::new(f64::from(u), f64::from(v));
-            let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
+            let depth = f64::from(photo.depth_m.get_pixel(u, v).0[0]);
             camera.center_in_world() + camera.ray_in_world(&pixel) * depth
         };
         // Color of a surface by its z in the room, from front to back.
         let paint = |point: Point3<f64>| [((point.z + 0.6) * 140.0).clamp(0.0, 250.0) as u8 + 3; 3];
         let painted = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
-            image::Rgb(paint(in_world(&from, &photograph, u, v)))
+            image::Rgb(paint(in_world(&from, &photo, u, v)))
         });
-        photograph.image = painted;
-        let mut seen = Reprojected::default();
+        photo.image = painted;
+        let mut reprojected = Reprojected::default();
         for (index, to) in places().iter().enumerate() {
-            photograph.reproject(&from, to, None, &mut seen).unwrap();
+            photo.reproject(&from, to, None, &mut reprojected).unwrap();
             let there = render(&scene, to);
             let truth = RgbImage::from_fn(SIZE.0, SIZE.1, |u, v| {
                 image::Rgb(paint(in_world(to, &there, u, v)))
             });
             let (mut all, mut wrong) = (0, 0);
-            for (a, b) in pairs(&seen, &truth) {
+            for (a, b) in pairs(&reprojected, &truth) {
                 all += 1;
                 wrong += usize::from(a[0].abs_diff(b[0]) > 10);
             }
@@ -369,32 +372,32 @@ mod tests {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
         let to = moved(0.3, 0.0, 0.0, 0.0);
-        let mut seen = Reprojected::default();
-        let photograph = render(&scene, &from);
-        photograph.reproject(&from, &to, None, &mut seen).unwrap();
-        let missing: Vec<u32> = seen.missing.iter().cloned().flatten().collect();
+        let mut reprojected = Reprojected::default();
+        let photo = render(&scene, &from);
+        photo.reproject(&from, &to, None, &mut reprojected).unwrap();
+        let missing: Vec<u32> = reprojected.missing.iter().cloned().flatten().collect();
         assert!(!missing.is_empty());
         let mut num_new = 0;
         for &index in &missing {
             let pixel2 = Point2::new(f64::from(index % SIZE.0), f64::from(index / SIZE.0));
             let there = scene.transfer(&to, &from, &pixel2);
-            let was_seen = match there {
+            let was_rendered = match there {
                 crate::Transfer::Visible { pixel2: p, .. } => {
                     (1.0..f64::from(SIZE.0) - 2.0).contains(&p.x)
                         && (1.0..f64::from(SIZE.1) - 2.0).contains(&p.y)
                 }
                 _ => false,
             };
-            num_new += usize::from(!was_seen);
+            num_new += usize::from(!was_rendered);
         }
         assert!(
             num_new * 100 > missing.len() * 90,
             "{num_new} of {}",
             missing.len()
         );
-        seen.fill(&RgbImage::from_pixel(20, 15, image::Rgb([1, 2, 3])));
+        reprojected.fill(&RgbImage::from_pixel(20, 15, image::Rgb([1, 2, 3])));
         for index in missing {
-            let pixel = seen.image.get_pixel(index % SIZE.0, index / SIZE.0);
+            let pixel = reprojected.image.get_pixel(index % SIZE.0, index / SIZE.0);
             assert_eq!(pixel.0, [1, 2, 3]);
         }
     }
@@ -404,12 +407,12 @@ mod tests {
     fn only_what_is_wanted_of_a_draft_is_used() {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
-        let photograph = render(&scene, &from);
+        let photo = render(&scene, &from);
         let small = (SIZE.0.div_ceil(6), SIZE.1 / 6);
         for to in places() {
             let fill = |all: bool| {
-                let mut seen = Reprojected::default();
-                photograph.reproject(&from, &to, None, &mut seen).unwrap();
+                let mut reprojected = Reprojected::default();
+                photo.reproject(&from, &to, None, &mut reprojected).unwrap();
                 let camera = PosedCamera {
                     camera: Camera::pinhole(
                         to.camera.intrinsics.scaled(1.0 / 6.0).unwrap(),
@@ -418,15 +421,15 @@ mod tests {
                     ),
                     ..to
                 };
-                let wanted = seen.wanted(small);
+                let wanted = reprojected.wanted(small);
                 assert!(wanted.iter().any(|&wanted| !wanted));
                 let wanted = wanted.iter().map(|&wanted| wanted || all);
                 let mut draft = Photograph::blank(small.0, small.1);
                 scene
                     .render_draft(&camera, &wanted.collect::<Vec<_>>(), &mut draft)
                     .unwrap();
-                seen.fill(&draft.image);
-                seen.image
+                reprojected.fill(&draft.image);
+                reprojected.image
             };
             assert_eq!(fill(true), fill(false));
         }
@@ -456,12 +459,12 @@ mod tests {
             stale_m: 0.3,
             by: Vector3::new(0.3, 0.0, 0.0),
         };
-        let mut seen = Reprojected::default();
+        let mut reprojected = Reprojected::default();
         before
-            .reproject(&camera, &camera, Some(&moved), &mut seen)
+            .reproject(&camera, &camera, Some(&moved), &mut reprojected)
             .unwrap();
-        seen.fill(&after.image);
-        let wrong = (seen.image.pixels().zip(after.image.pixels()))
+        reprojected.fill(&after.image);
+        let wrong = (reprojected.image.pixels().zip(after.image.pixels()))
             .filter(|(a, b)| (0..3).any(|i| a.0[i].abs_diff(b.0[i]) > 40))
             .count();
         let differs = (before.image.pixels().zip(after.image.pixels()))
@@ -476,8 +479,8 @@ mod tests {
     fn another_focal_length_zooms() {
         let scene = Scene::still_life();
         let from = still_life_camera(SIZE.0, SIZE.1);
-        let photograph = render(&scene, &from);
-        let mut seen = Reprojected::default();
+        let photo = render(&scene, &from);
+        let mut reprojected = Reprojected::default();
         for factor in [0.8, 1.25, 2.0] {
             let k = &from.camera.intrinsics;
             let focal_px = factor * k.fu_px();
@@ -489,17 +492,17 @@ mod tests {
                 ),
                 ..from
             };
-            photograph.reproject(&from, &to, None, &mut seen).unwrap();
+            photo.reproject(&from, &to, None, &mut reprojected).unwrap();
             let truth = render(&scene, &to).image;
             let (mut sum, mut count) = (0.0, 0.0);
-            for (a, b) in pairs(&seen, &truth) {
+            for (a, b) in pairs(&reprojected, &truth) {
                 sum += (0..3).map(|i| f64::from(a[i].abs_diff(b[i]))).sum::<f64>();
                 count += 3.0;
             }
             assert!(sum / count < 8.0, "{factor}: {}", sum / count);
             let whole = f64::from(SIZE.0 * SIZE.1);
             let expected = whole * (1.0 - f64::min(factor * factor, 1.0));
-            let missing = seen.num_missing() as f64;
+            let missing = reprojected.num_missing() as f64;
             assert!(
                 (missing - expected).abs() < 0.02 * whole,
                 "{factor}: {missing}"
@@ -510,21 +513,21 @@ mod tests {
     #[test]
     fn bad_requests_are_refused() {
         let camera = still_life_camera(8, 6);
-        let mut photograph = Photograph::blank(8, 6);
-        let mut seen = Reprojected::default();
+        let mut photo = Photograph::blank(8, 6);
+        let mut reprojected = Reprojected::default();
         let mut nowhere = camera;
         nowhere.cam_from_world.translation.x = f64::NAN;
-        let refused = photograph.reproject(&camera, &nowhere, None, &mut seen);
+        let refused = photo.reproject(&camera, &nowhere, None, &mut reprojected);
         assert!(matches!(refused, Err(Error::NotFinite { .. })));
         // Pixels without depth are not projected.
         let other = still_life_camera(9, 6);
-        photograph
-            .reproject(&camera, &other, None, &mut seen)
+        photo
+            .reproject(&camera, &other, None, &mut reprojected)
             .unwrap();
-        assert_eq!(seen.num_missing(), 48);
-        seen.fill(&RgbImage::new(0, 0));
-        photograph.depth_m = image::ImageBuffer::new(4, 4);
-        let refused = photograph.reproject(&camera, &camera, None, &mut seen);
+        assert_eq!(reprojected.num_missing(), 48);
+        reprojected.fill(&RgbImage::new(0, 0));
+        photo.depth_m = image::ImageBuffer::new(4, 4);
+        let refused = photo.reproject(&camera, &camera, None, &mut reprojected);
         assert!(matches!(refused, Err(Error::SizeMismatch { .. })));
     }
 }

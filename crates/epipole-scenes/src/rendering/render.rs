@@ -41,10 +41,10 @@ impl Scene {
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole_scenes::{Sampling, Scene, still_life_camera};
     /// let camera = still_life_camera(64, 48);
-    /// let photograph = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
-    /// assert_eq!(photograph.image.dimensions(), (64, 48));
+    /// let photo = Scene::still_life().render(&camera, 64, 48, Sampling::Full)?;
+    /// assert_eq!(photo.image.dimensions(), (64, 48));
     /// // The table is nearer at the bottom of the picture than the wall at its top.
-    /// assert!(photograph.depth_m[(5, 47)].0[0] < photograph.depth_m[(5, 0)].0[0]);
+    /// assert!(photo.depth_m[(5, 47)].0[0] < photo.depth_m[(5, 0)].0[0]);
     /// # Ok(()) }
     /// ```
     pub fn render(
@@ -316,13 +316,13 @@ mod tests {
     fn bytes_are_pinned() {
         let camera = still_life_camera(96, 72);
         let scene = Scene::still_life();
-        let photograph = scene.render(&camera, 96, 72, Sampling::Full).unwrap();
+        let photo = scene.render(&camera, 96, 72, Sampling::Full).unwrap();
         let draft = scene.render(&camera, 96, 72, Sampling::Draft).unwrap();
         assert_eq!(
             (
-                fingerprint(&photograph.image),
+                fingerprint(&photo.image),
                 fingerprint(&draft.image),
-                photograph
+                photo
                     .depth_m
                     .iter()
                     .fold(0u64, |sum, depth| sum.wrapping_mul(31)
@@ -330,7 +330,7 @@ mod tests {
             ),
             PINNED
         );
-        assert_eq!(photograph.depth_m, draft.depth_m);
+        assert_eq!(photo.depth_m, draft.depth_m);
     }
 
     const PINNED: (u64, u64, u64) = (
@@ -362,15 +362,15 @@ mod tests {
         let scene = Scene::still_life();
         let front = still_life_camera(64, 48);
         for (dx, dz, yaw) in [(0.0, 0.0, 0.0), (0.5, 0.3, -0.35), (-0.5, 0.5, 0.35)] {
-            let turn = nalgebra::Isometry3::rotation(Vector3::new(0.0, yaw, 0.0));
+            let rotation = nalgebra::Isometry3::rotation(Vector3::new(0.0, yaw, 0.0));
             let camera = PosedCamera {
                 camera: front.camera,
-                cam_from_world: turn
+                cam_from_world: rotation
                     * front.cam_from_world
                     * nalgebra::Translation3::new(-dx, 0.0, -dz),
             };
-            let photograph = scene.render(&camera, 64, 48, Sampling::Draft).unwrap();
-            for (u, v, depth) in photograph.depth_m.enumerate_pixels() {
+            let photo = scene.render(&camera, 64, 48, Sampling::Draft).unwrap();
+            for (u, v, depth) in photo.depth_m.enumerate_pixels() {
                 let pixel = Point2::new(f64::from(u), f64::from(v));
                 let hit = scene
                     .cast(&camera.center_in_world(), &camera.ray_in_world(&pixel))

@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 pub(super) const TILE: u32 = 8;
 const NEAR: f64 = 1e-9;
 /// A body in the view of a camera.
-struct Seen<'a> {
+struct VisibleBody<'a> {
     body: &'a Body,
     lights: &'a [LightMap],
     origin: Vector3<f64>,
@@ -33,7 +33,7 @@ struct Seen<'a> {
     number: usize,
 }
 
-impl Seen<'_> {
+impl VisibleBody<'_> {
     /// Returns whether the ray through an image point may meet it.
     #[inline(always)]
     fn may_be_at(&self, u: f64, v: f64) -> bool {
@@ -54,7 +54,7 @@ pub(super) struct Sample {
 
 /// View of a picture to render.
 pub(super) struct View<'a> {
-    seen: Vec<Seen<'a>>,
+    visible: Vec<VisibleBody<'a>>,
     lighting: &'a Lighting,
     /// Shade of the movable object, its placement, and the index of the body under it.
     shade: Option<(&'a Decal, Placement, usize)>,
@@ -88,7 +88,7 @@ impl<'a> View<'a> {
         let all = scene.placed().zip(scene.lights(detail)).enumerate().map(
             |(number, ((body, placed), lights))| {
                 let (columns, rows, nearest) = outline(camera, body, &placed);
-                Seen {
+                VisibleBody {
                     body,
                     lights,
                     origin: body.local_point(&center, &placed),
@@ -103,15 +103,15 @@ impl<'a> View<'a> {
             },
         );
         // Sorted front to back; equal depths keep the order of bodies.
-        let mut seen: Vec<Seen> = Vec::new();
+        let mut visible: Vec<VisibleBody> = Vec::new();
         for body in all {
-            let is_before = |other: &Seen| other.nearest.total_cmp(&body.nearest).is_le();
-            seen.insert(seen.partition_point(is_before), body);
+            let is_before = |other: &VisibleBody| other.nearest.total_cmp(&body.nearest).is_le();
+            visible.insert(visible.partition_point(is_before), body);
         }
         Self {
             lighting: &scene.fixed.lighting,
             shade: scene.shade(detail),
-            seen,
+            visible,
             center,
             world_from_cam,
             principal: k.principal_point(),
@@ -132,12 +132,12 @@ impl<'a> View<'a> {
             i64::from(tile_row) * tile,
             i64::from(tile_row) * tile + tile - 1,
         );
-        for (index, seen) in self.seen.iter().enumerate() {
-            if seen.rows.1 < top || seen.rows.0 > bottom {
+        for (index, visible) in self.visible.iter().enumerate() {
+            if visible.rows.1 < top || visible.rows.0 > bottom {
                 continue;
             }
-            let first = seen.columns.0.max(0) / tile;
-            let last = seen.columns.1.min(i64::from(self.width) - 1);
+            let first = visible.columns.0.max(0) / tile;
+            let last = visible.columns.1.min(i64::from(self.width) - 1);
             if last < 0 {
                 continue;
             }
@@ -156,7 +156,7 @@ impl<'a> View<'a> {
     pub(super) fn trace(&self, u: f64, v: f64, candidates: &[u16]) -> Sample {
         let x = (u - self.principal.x) * self.inverse_focal.x;
         let y = (v - self.principal.y) * self.inverse_focal.y;
-        let turn = |m: &Matrix3<f64>| {
+        let rotate = |m: &Matrix3<f64>| {
             Vector3::new(
                 m.m11 * x + m.m12 * y + m.m13,
                 m.m21 * x + m.m22 * y + m.m23,
@@ -169,24 +169,24 @@ impl<'a> View<'a> {
         };
         let mut found = usize::MAX;
         for &index in candidates {
-            let seen = &self.seen[usize::from(index)];
-            if seen.nearest > nearest.along {
+            let visible = &self.visible[usize::from(index)];
+            if visible.nearest > nearest.along {
                 break;
             }
             // Some rays of a tile miss some of its candidates.
-            if !seen.may_be_at(u, v) {
+            if !visible.may_be_at(u, v) {
                 continue;
             }
             let ray = Ray {
-                origin: seen.origin,
-                direction: turn(&seen.local_from_cam),
+                origin: visible.origin,
+                direction: rotate(&visible.local_from_cam),
             };
-            if let Some(contact) = seen.body.shape.meet(&ray, NEAR, nearest.along) {
+            if let Some(contact) = visible.body.shape.meet(&ray, NEAR, nearest.along) {
                 nearest = contact;
                 found = usize::from(index);
             }
         }
-        let Some(seen) = self.seen.get(found) else {
+        let Some(visible) = self.visible.get(found) else {
             return Sample {
                 key: u32::MAX,
                 depth_m: f32::MAX,
@@ -194,13 +194,13 @@ impl<'a> View<'a> {
                 color: [0.0; 3],
             };
         };
-        let local = seen.origin + turn(&seen.local_from_cam) * nearest.along;
-        let place = seen.body.shape.place(&local, nearest.part);
-        let direction_in_world = turn(&self.world_from_cam);
+        let local = visible.origin + rotate(&visible.local_from_cam) * nearest.along;
+        let place = visible.body.shape.place(&local, nearest.part);
+        let direction_in_world = rotate(&self.world_from_cam);
         let x_in_world = self.center + direction_in_world * nearest.along;
         let decal = match &self.shade {
             // Shade falls on the top of the object's support, not on its sides.
-            Some((decal, placed, ground)) if *ground == seen.number && place.chart == TOP => {
+            Some((decal, placed, ground)) if *ground == visible.number && place.chart == TOP => {
                 let from_foot = (x_in_world - placed.foot) / placed.scale;
                 decal.sample(from_foot.x, from_foot.z)
             }
@@ -209,13 +209,13 @@ impl<'a> View<'a> {
         let look = Look {
             x_in_world: single(&x_in_world),
             direction_in_world: single(&direction_in_world),
-            pixel_m: (nearest.along * self.pixel_rad / seen.scale) as f32,
+            pixel_m: (nearest.along * self.pixel_rad / visible.scale) as f32,
             decal,
             smooth: self.sampling == Sampling::Full,
         };
-        let color = shading::color(seen.body, seen.lights, &place, self.lighting, &look);
+        let color = shading::color(visible.body, visible.lights, &place, self.lighting, &look);
         Sample {
-            key: (seen.number as u32) << 8 | place.chart as u32,
+            key: (visible.number as u32) << 8 | place.chart as u32,
             depth_m: nearest.along as f32,
             inverse_depth: 1.0 / nearest.along as f32,
             color,

@@ -120,14 +120,14 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::photograph::{Photograph, Sampling};
+    use crate::rendering::{Photograph, Sampling};
     use crate::sets::{MovableKind, MovableObject, still_life_camera};
     use epipole::math::random::Random;
     use nalgebra::Isometry3;
 
     /// Drafts are rendered again only in this range.
     #[test]
-    fn elsewhere_nothing_changes_when_the_thing_moves() {
+    fn pixels_elsewhere_are_unchanged_when_the_object_moves() {
         let mut random = Random::new(8);
         let camera = PosedCamera {
             cam_from_world: Isometry3::translation(-0.2, 0.4, 0.1),

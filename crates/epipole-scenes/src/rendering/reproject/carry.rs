@@ -4,7 +4,7 @@
 //! (McMillan and Bishop 1995, "Plenoptic Modeling", section 4): along epipolar lines, towards the
 //! epipole if the other camera is in front of this one, away from it if it is behind.
 
-use crate::photograph::Photograph;
+use crate::rendering::Photograph;
 use epipole::camera::{PosedCamera, RigidTransform};
 use epipole::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
@@ -72,14 +72,14 @@ impl Carry {
     }
 
     /// Warps all pixels with a depth, far ones before near ones.
-    pub(super) fn all(&self, photograph: &Photograph, depths: &[f32], target: &mut [u32]) {
+    pub(super) fn all(&self, photo: &Photograph, depths: &[f32], target: &mut [u32]) {
         let [columns, rows] = [(self.epipole.0, self.size.0), (self.epipole.1, self.size.1)]
             .map(|(epipole, size)| self.order(epipole, size));
         for row in rows {
             for v in row.places() {
                 for run in &columns {
                     let row = (v, row.is_upward);
-                    self.run(photograph, depths, (run, row), target);
+                    self.run(photo, depths, (run, row), target);
                 }
             }
         }
@@ -95,7 +95,7 @@ impl Carry {
     /// Warps the pixels of a part of a row.
     pub(super) fn run(
         &self,
-        photograph: &Photograph,
+        photo: &Photograph,
         depths: &[f32],
         (run, (v, is_downward)): (&Run, (u32, bool)),
         target: &mut [u32],
@@ -103,7 +103,7 @@ impl Carry {
         let (width, height) = (self.size.0 as usize, self.size.1 as usize);
         let row = v as usize * width..(v as usize + 1) * width;
         let depths = &depths[row.clone()];
-        let colors = &photograph.image.as_raw().as_chunks::<3>().0[row];
+        let colors = &photo.image.as_raw().as_chunks::<3>().0[row];
         let way = Way {
             base: std::array::from_fn(|i| self.map[(i, 1)] * v as f32 + self.map[(i, 2)]),
             slope: std::array::from_fn(|i| self.map[(i, 0)]),
