@@ -137,20 +137,20 @@ impl Theme {
     }
 
     /// Returns the color of a value from 0 to 1: larger is brighter, in every theme.
-    pub fn scale(self, share: f64) -> Rgb {
-        let share = if share.is_nan() { 0.0 } else { share };
-        let at = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
+    pub fn scale(self, fraction: f64) -> Rgb {
+        let fraction = if fraction.is_nan() { 0.0 } else { fraction };
+        let at = fraction.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
         let first = (at as usize).min(SCALE.len() - 2);
         mix(SCALE[first], SCALE[first + 1], (at - first as f64) as f32)
     }
 }
 
-/// Interpolates between two colors; `share` is that of `to`, 0 to 1.
-pub fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
+/// Interpolates between two colors; `fraction` is that of `to`, 0 to 1.
+pub fn mix(from: Rgb, to: Rgb, fraction: f32) -> Rgb {
     std::array::from_fn(|channel| {
         let (a, b) = (f32::from(from[channel]), f32::from(to[channel]));
         // The cast truncates after adding 0.5; `round` is a call in WebAssembly.
-        (a + (b - a) * share + 0.5) as u8
+        (a + (b - a) * fraction + 0.5) as u8
     })
 }
 
@@ -193,8 +193,8 @@ mod tests {
             .map(|step| gray(Theme::Light.scale(f64::from(step) / 20.0)))
             .collect();
         assert!(steps.windows(2).all(|pair| pair[0] < pair[1]), "{steps:?}");
-        for odd in [f64::NAN, f64::NEG_INFINITY, -1.0] {
-            assert_eq!(Theme::Dark.scale(odd), SCALE[0]);
+        for invalid in [f64::NAN, f64::NEG_INFINITY, -1.0] {
+            assert_eq!(Theme::Dark.scale(invalid), SCALE[0]);
         }
         assert_eq!(Theme::Dark.scale(f64::INFINITY), SCALE[8]);
     }

@@ -139,10 +139,10 @@ impl Ink {
         let count = last_alphas.len();
         if count > 0 {
             // A padded copy is faster than pixel by pixel.
-            let (mut few, mut shares) = ([0; BYTES], [0; AT_ONCE]);
+            let (mut few, mut padded) = ([0; BYTES], [0; AT_ONCE]);
             few[..4 * count].copy_from_slice(last_pixels);
-            shares[..count].copy_from_slice(last_alphas);
-            self.mix(&mut few, &shares);
+            padded[..count].copy_from_slice(last_alphas);
+            self.mix(&mut few, &padded);
             last_pixels.copy_from_slice(&few[..4 * count]);
         }
     }
@@ -185,9 +185,9 @@ impl Ink {
         let twos = pixels.as_chunks_mut::<8>().0.iter_mut();
         for (two, &[first, second]) in twos.zip(alphas.as_chunks::<2>().0) {
             for (index, byte) in two.iter_mut().enumerate() {
-                let share = u16::from(if index < 4 { first } else { second });
-                let paper = u16::from(*byte) * (255 - share);
-                *byte = nearest_255th(self.color[index] * share + paper);
+                let coverage = u16::from(if index < 4 { first } else { second });
+                let paper = u16::from(*byte) * (255 - coverage);
+                *byte = nearest_255th(self.color[index] * coverage + paper);
             }
         }
     }
@@ -195,11 +195,11 @@ impl Ink {
     /// Blends as [`mix`](Self::mix), with equal coverage of all pixels.
     #[inline(always)]
     fn mix_evenly(&self, pixels: &mut [u8; BYTES], alpha: u8) {
-        let share = u16::from(alpha);
-        let ink: [u16; 8] = std::array::from_fn(|byte| self.color[byte] * share);
+        let coverage = u16::from(alpha);
+        let ink: [u16; 8] = std::array::from_fn(|byte| self.color[byte] * coverage);
         for two in pixels.as_chunks_mut::<8>().0 {
             for (byte, ink) in two.iter_mut().zip(ink) {
-                *byte = nearest_255th(ink + u16::from(*byte) * (255 - share));
+                *byte = nearest_255th(ink + u16::from(*byte) * (255 - coverage));
             }
         }
     }
@@ -227,10 +227,10 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
 
 /// Converts a coverage from 0 to 1 to 255ths.
 #[inline]
-pub(super) fn parts(share: f32) -> u8 {
+pub(super) fn parts(coverage: f32) -> u8 {
     // Adding 2²³ rounds to an integer in the low bits: a cast that vector instructions have.
     const WHOLE_ONLY: f32 = 8_388_608.0;
-    (share * 255.0 + WHOLE_ONLY).to_bits() as u8
+    (coverage * 255.0 + WHOLE_ONLY).to_bits() as u8
 }
 
 #[cfg(test)]
@@ -269,8 +269,8 @@ mod tests {
         for (index, &alpha) in alphas.iter().enumerate() {
             for channel in 0..3 {
                 let [ink, paper] = [color[channel], before[4 * index + channel]].map(f64::from);
-                let share = f64::from(alpha) / 255.0;
-                let expected = ink * share + paper * (1.0 - share);
+                let coverage = f64::from(alpha) / 255.0;
+                let expected = ink * coverage + paper * (1.0 - coverage);
                 let error = (expected - f64::from(pixels[4 * index + channel])).abs();
                 assert!(error <= 0.5 + 1e-9, "{index} {channel}: {error}");
             }

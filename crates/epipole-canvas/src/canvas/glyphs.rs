@@ -48,7 +48,7 @@ pub(super) fn draw(
         return;
     }
     let y = baseline.round() as i32;
-    CACHE.with_borrow_mut(|kept| {
+    CACHE.with_borrow_mut(|cache| {
         let mut pen_x = left;
         for character in text.chars() {
             let (x, step) = pixel_and_step(pen_x);
@@ -58,7 +58,7 @@ pub(super) fn draw(
                 casing: (casing as f32).to_bits(),
                 step,
             };
-            kept.stamp(key, rasterize).blend(pixmap, (x, y), color);
+            cache.stamp(key, rasterize).blend(pixmap, (x, y), color);
             pen_x += font::width(character.encode_utf8(&mut [0; 4])) * size;
         }
     });
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kept_glyph_is_the_same_as_a_new_one() {
+    fn a_cached_glyph_equals_a_new_one() {
         let first = drawn("e₂ = 0", (3.3, 20.0), 0.0);
         CACHE.with_borrow_mut(StampCache::forget);
         assert_eq!(first, drawn("e₂ = 0", (3.3, 20.0), 0.0));

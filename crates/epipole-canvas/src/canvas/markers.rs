@@ -69,8 +69,9 @@ pub(super) fn draw(
         is_dot: false,
     };
     let color = canvas.theme.color(role);
-    CACHE.with_borrow_mut(|kept| {
-        kept.stamp(key, cover)
+    CACHE.with_borrow_mut(|cache| {
+        cache
+            .stamp(key, cover)
             .blend(&mut canvas.pixmap, (x, y), color);
     });
 }
@@ -79,17 +80,18 @@ pub(super) fn draw(
 pub(super) fn draw_dot(canvas: &mut Canvas, (x, y): Place, radius: f64, color: Rgb) {
     let scale = canvas.scale;
     let ((x, step_x), (y, step_y)) = (pixel_and_step(x * scale), pixel_and_step(y * scale));
-    let kept = |radius: f64| ((radius * scale / DOT_STEP).round() * DOT_STEP) as f32;
+    let rounded = |radius: f64| ((radius * scale / DOT_STEP).round() * DOT_STEP) as f32;
     let key = Key {
         shape: Shape::Disk,
-        radius: kept(radius).to_bits(),
-        width: kept(radius + RIM).to_bits(),
+        radius: rounded(radius).to_bits(),
+        width: rounded(radius + RIM).to_bits(),
         step: (step_x, step_y),
         is_dot: true,
     };
     let rim = canvas.theme.color(Role::Muted);
-    CACHE.with_borrow_mut(|kept| {
-        kept.stamp(key, cover)
+    CACHE.with_borrow_mut(|rounded| {
+        rounded
+            .stamp(key, cover)
             .blend_both(&mut canvas.pixmap, (x, y), [rim, color]);
     });
 }
@@ -180,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kept_marker_is_the_same_as_a_new_one_and_lies_around_its_place() {
+    fn a_cached_marker_equals_a_new_one_and_is_around_its_place() {
         let empty = drawn(Shape::Disk, (f64::NAN, 3.0));
         for shape in SHAPES {
             let first = drawn(shape, (20.1, 15.3));

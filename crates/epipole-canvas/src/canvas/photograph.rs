@@ -10,7 +10,7 @@ impl Canvas {
     /// Draws a photograph, scaled to fill `rect`.
     ///
     /// Interpolation is bilinear in fixed-point arithmetic: fast, and identical on all platforms.
-    pub fn photograph(&mut self, rect: Rect, photograph: &RgbImage) {
+    pub fn photograph(&mut self, rect: Rect, photo: &RgbImage) {
         let device = |value: f64| (value * self.scale).round() as i64;
         let (left, top) = (device(rect.x), device(rect.y));
         let (right, bottom) = (device(rect.right()), device(rect.bottom()));
@@ -18,7 +18,7 @@ impl Canvas {
             i64::from(self.pixmap.width()),
             i64::from(self.pixmap.height()),
         );
-        let (photo_width, photo_height) = photograph.dimensions();
+        let (photo_width, photo_height) = photo.dimensions();
         if right <= left || bottom <= top || photo_width == 0 || photo_height == 0 {
             return;
         }
@@ -28,30 +28,30 @@ impl Canvas {
             return;
         }
         let target = Target {
-            asked: [left, top, right, bottom],
+            requested: [left, top, right, bottom],
             columns: columns.visible(),
             rows: rows.visible(),
         };
         let stride = self.pixmap.width() as usize * 4;
         let picture = (self.pixmap.data_mut(), stride);
-        self.scaled.draw(photograph, target, picture, |picture| {
-            scale(photograph, &columns, &rows, (picture, stride));
+        self.scaled.draw(photo, target, picture, |picture| {
+            scale(photo, &columns, &rows, (picture, stride));
         });
     }
 }
 
 /// Draws the photograph into RGBA bytes, with the stride in bytes.
 fn scale(
-    photograph: &RgbImage,
+    photo: &RgbImage,
     columns: &Taps,
     rows: &Taps,
     (target, target_stride): (&mut [u8], usize),
 ) {
-    let stride = photograph.width() as usize * 3;
-    let photo_width = photograph.width();
+    let stride = photo.width() as usize * 3;
+    let photo_width = photo.width();
     let mut source = vec![0u64; photo_width as usize];
     let mut across = |row: usize, stretched: &mut [u16]| {
-        let bytes = &photograph.as_raw()[row * stride..][..stride];
+        let bytes = &photo.as_raw()[row * stride..][..stride];
         for (pixel, rgb) in source.iter_mut().zip(bytes.chunks_exact(3)) {
             let [r, g, b] = [rgb[0], rgb[1], rgb[2]].map(u64::from);
             *pixel = r | g << 16 | b << 32 | 255 << 48;
@@ -146,23 +146,22 @@ mod tests {
     use crate::theme::Theme;
 
     #[test]
-    fn a_photograph_at_its_own_size_keeps_its_pixels() {
-        let photograph =
-            RgbImage::from_fn(7, 5, |x, y| image::Rgb([x as u8 * 30, y as u8 * 40, 9]));
+    fn an_image_at_its_own_size_keeps_its_pixels() {
+        let photo = RgbImage::from_fn(7, 5, |x, y| image::Rgb([x as u8 * 30, y as u8 * 40, 9]));
         let mut canvas = Canvas::new(9.0, 7.0, 1.0, Theme::Light, Picture::default()).unwrap();
-        canvas.photograph(Rect::new(1.0, 1.0, 7.0, 5.0), &photograph);
+        canvas.photograph(Rect::new(1.0, 1.0, 7.0, 5.0), &photo);
         let pixmap = canvas.finish().pixmap.unwrap();
-        for (x, y, pixel) in photograph.enumerate_pixels() {
+        for (x, y, pixel) in photo.enumerate_pixels() {
             let drawn = pixmap.pixel(x + 1, y + 1).unwrap();
             assert_eq!([drawn.red(), drawn.green(), drawn.blue()], pixel.0);
         }
     }
 
     #[test]
-    fn a_photograph_hanging_over_the_edge_is_cut() {
-        let photograph = RgbImage::from_pixel(8, 8, image::Rgb([10, 20, 30]));
+    fn an_image_over_the_edge_is_clipped() {
+        let photo = RgbImage::from_pixel(8, 8, image::Rgb([10, 20, 30]));
         let mut canvas = Canvas::new(6.0, 6.0, 2.0, Theme::Light, Picture::default()).unwrap();
-        canvas.photograph(Rect::new(-3.0, -3.0, 20.0, 6.0), &photograph);
+        canvas.photograph(Rect::new(-3.0, -3.0, 20.0, 6.0), &photo);
         let pixmap = canvas.finish().pixmap.unwrap();
         let drawn = pixmap.pixel(0, 0).unwrap();
         assert_eq!([drawn.red(), drawn.green(), drawn.blue()], [10, 20, 30]);

@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn a_contour_that_turns_the_other_way_is_a_hole() {
+    fn a_reversed_contour_is_a_hole() {
         let outer = [(5.0, 5.0), (35.0, 5.0), (35.0, 35.0), (5.0, 35.0)];
         let inner = [(10.0, 10.0), (10.0, 20.0), (20.0, 20.0), (20.0, 10.0)];
         let mut coverage = Coverage::default().sized(60, 40);

@@ -8,7 +8,7 @@ use std::ops::Range;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Target {
     /// Requested left, top, right and bottom, possibly beyond the picture.
-    pub(super) asked: [i64; 4],
+    pub(super) requested: [i64; 4],
     /// Columns of the picture within these sides.
     pub(super) columns: Range<usize>,
     /// Rows of the picture within these sides.
@@ -42,17 +42,17 @@ impl Scaled {
     /// * `picture`: RGBA bytes, with `stride` bytes per row
     pub(super) fn draw(
         &mut self,
-        photograph: &RgbImage,
+        photo: &RgbImage,
         target: Target,
         (picture, stride): (&mut [u8], usize),
         scale: impl FnOnce(&mut [u8]),
     ) {
         let key = Key {
-            fingerprint: fingerprint(photograph),
-            size: photograph.dimensions(),
+            fingerprint: fingerprint(photo),
+            size: photo.dimensions(),
             target,
         };
-        let Some(kept) = self.0.iter_mut().find(|kept| kept.key == key) else {
+        let Some(cached) = self.0.iter_mut().find(|cached| cached.key == key) else {
             scale(picture);
             return self.0.push(CachedImage {
                 key,
@@ -60,15 +60,15 @@ impl Scaled {
                 is_shown: true,
             });
         };
-        kept.is_shown = true;
-        let Target { columns, rows, .. } = &kept.key.target;
+        cached.is_shown = true;
+        let Target { columns, rows, .. } = &cached.key.target;
         let length = columns.len() * 4;
         let places = rows.clone().map(|row| row * stride + columns.start * 4);
-        if kept.pixels.is_empty() {
+        if cached.pixels.is_empty() {
             scale(picture);
-            places.for_each(|start| kept.pixels.extend(&picture[start..][..length]));
+            places.for_each(|start| cached.pixels.extend(&picture[start..][..length]));
         } else {
-            for (start, pixels) in places.zip(kept.pixels.chunks_exact(length)) {
+            for (start, pixels) in places.zip(cached.pixels.chunks_exact(length)) {
                 picture[start..][..length].copy_from_slice(pixels);
             }
         }
@@ -76,18 +76,19 @@ impl Scaled {
 
     /// Returns the cache for the next frame: only the photographs shown in this one.
     pub(super) fn after_frame(mut self) -> Self {
-        self.0.retain_mut(|kept| std::mem::take(&mut kept.is_shown));
+        self.0
+            .retain_mut(|cached| std::mem::take(&mut cached.is_shown));
         self
     }
 }
 
 /// Hashes a photograph, in about 0.05 ms.
-fn fingerprint(photograph: &RgbImage) -> u64 {
+fn fingerprint(photo: &RgbImage) -> u64 {
     let mix = |hash: u64, word: &[u8; 8]| {
         let product = (hash ^ u64::from_le_bytes(*word)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         product ^ (product >> 32)
     };
-    let (words, rest) = photograph.as_raw().as_chunks::<8>();
+    let (words, rest) = photo.as_raw().as_chunks::<8>();
     // Four independent chains, as each multiplication waits for the previous one.
     let (fours, last) = words.as_chunks::<4>();
     let mut hashes = [0, 1, 2, 3];
@@ -110,11 +111,11 @@ mod tests {
     use crate::theme::Theme;
     use image::{Rgb, RgbImage};
 
-    fn frame(buffer: Picture, photographs: &[&RgbImage], width: f64) -> Picture {
+    fn frame(buffer: Picture, photos: &[&RgbImage], width: f64) -> Picture {
         let mut canvas = Canvas::new(90.0, 40.0, 1.0, Theme::Light, buffer).unwrap();
-        for (index, photograph) in photographs.iter().enumerate() {
+        for (index, photo) in photos.iter().enumerate() {
             let x = 45.0 * index as f64 - 3.0;
-            canvas.photograph(Rect::new(x, 2.0, width, 30.0), photograph);
+            canvas.photograph(Rect::new(x, 2.0, width, 30.0), photo);
         }
         canvas.finish()
     }
@@ -135,9 +136,9 @@ mod tests {
             (&[&one], 33.0),
         ];
         let mut picture = Picture::default();
-        for (photographs, width) in shows {
-            let fresh = frame(Picture::default(), photographs, width).hash();
-            picture = frame(picture, photographs, width);
+        for (photos, width) in shows {
+            let fresh = frame(Picture::default(), photos, width).hash();
+            picture = frame(picture, photos, width);
             assert_eq!(picture.hash(), fresh);
         }
         assert_eq!(picture.scaled.0.len(), 1, "only what is shown is kept");
@@ -145,15 +146,19 @@ mod tests {
 
     #[test]
     fn what_stays_is_copied() {
-        let photograph = RgbImage::from_pixel(8, 6, Rgb([10, 20, 30]));
+        let photo = RgbImage::from_pixel(8, 6, Rgb([10, 20, 30]));
         let mut picture = Picture::default();
         for _ in 0..3 {
-            picture = frame(picture, &[&photograph], 40.0);
+            picture = frame(picture, &[&photo], 40.0);
         }
-        let kept = &mut picture.scaled.0[0].pixels;
-        assert_eq!(kept.len(), 37 * 30 * 4, "without what hangs over the edge");
-        kept.fill(7);
-        picture = frame(picture, &[&photograph], 40.0);
+        let cached = &mut picture.scaled.0[0].pixels;
+        assert_eq!(
+            cached.len(),
+            37 * 30 * 4,
+            "without what hangs over the edge"
+        );
+        cached.fill(7);
+        picture = frame(picture, &[&photo], 40.0);
         let start = (2 * 90) * 4;
         assert_eq!(picture.rgba()[start..start + 4], [7; 4]);
     }

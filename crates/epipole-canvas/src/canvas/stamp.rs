@@ -16,7 +16,7 @@ pub(super) fn pixel_and_step(at: f64) -> (i32, u8) {
 
 /// Maximum number of stamps, at which the cache is cleared: each zoom level of a page needs new
 /// ones.
-const MOST_KEPT: usize = 2048;
+const MAX_CACHED: usize = 2048;
 
 /// Stamps sorted by key. A sorted list, since a map would add code to the download for every key
 /// type. Equal keys give equal stamps, so caching does not affect any pixel.
@@ -29,10 +29,10 @@ impl<K: Copy + Ord> StampCache<K> {
 
     /// Returns the stamp of a key, created on the first call.
     pub(super) fn stamp(&mut self, key: K, make: impl FnOnce(K) -> Stamp) -> &Stamp {
-        if self.0.len() > MOST_KEPT {
+        if self.0.len() > MAX_CACHED {
             self.forget();
         }
-        let place = match self.0.binary_search_by(|(kept, _)| kept.cmp(&key)) {
+        let place = match self.0.binary_search_by(|(cached, _)| cached.cmp(&key)) {
             Ok(place) => place,
             Err(place) => {
                 self.0.insert(place, (key, make(key)));

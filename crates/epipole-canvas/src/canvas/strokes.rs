@@ -26,9 +26,9 @@ fn band(distance: f32, half: f32) -> f32 {
 
 /// Covers part of a row with a function of the pixel's index.
 #[inline]
-fn cover(part: &mut [u8], share: impl Fn(f32) -> f32) {
+fn cover(part: &mut [u8], coverage: impl Fn(f32) -> f32) {
     for (index, alpha) in part.iter_mut().enumerate() {
-        *alpha = (*alpha).max(parts(share(index as i32 as f32)));
+        *alpha = (*alpha).max(parts(coverage(index as i32 as f32)));
     }
 }
 

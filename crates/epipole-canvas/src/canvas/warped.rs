@@ -21,24 +21,24 @@ impl Canvas {
         &mut self,
         corners: &[Place],
         photo_from_page: &Matrix3<f64>,
-        photograph: &RgbImage,
+        photo: &RgbImage,
     ) {
         let finite = corners.iter().all(|(x, y)| x.is_finite() && y.is_finite());
         let finite = finite && photo_from_page.iter().all(|entry| entry.is_finite());
-        let (width, height) = photograph.dimensions();
+        let (width, height) = photo.dimensions();
         if !finite || width == 0 || height == 0 {
             return;
         }
         let area = area(corners) * self.scale * self.scale;
-        let (mut photograph, mut halvings) = (Cow::Borrowed(photograph), 0);
-        while f64::from(photograph.width()) * f64::from(photograph.height()) > FINE * FINE * area
-            && photograph.width() >= 8
-            && photograph.height() >= 8
+        let (mut photo, mut halvings) = (Cow::Borrowed(photo), 0);
+        while f64::from(photo.width()) * f64::from(photo.height()) > FINE * FINE * area
+            && photo.width() >= 8
+            && photo.height() >= 8
         {
-            photograph = Cow::Owned(halved(&photograph));
+            photo = Cow::Owned(halved(&photo));
             halvings += 1;
         }
-        let source = Source::new(&photograph);
+        let source = Source::new(&photo);
         let shrink = libm::exp2(-f64::from(halvings));
         let shift = 0.5 * shrink - 0.5;
         // From device pixels to the halved photograph, whose origin is its corner.
@@ -115,9 +115,9 @@ struct Source {
 }
 
 impl Source {
-    fn new(photograph: &RgbImage) -> Self {
-        let (width, height) = photograph.dimensions();
-        let pixels = photograph.as_raw().as_chunks::<3>().0;
+    fn new(photo: &RgbImage) -> Self {
+        let (width, height) = photo.dimensions();
+        let pixels = photo.as_raw().as_chunks::<3>().0;
         let spread = |&[r, g, b]: &[u8; 3]| u64::from(r) | u64::from(g) << 16 | u64::from(b) << 32;
         let last = |side: u32| i64::from(side - 1) << BITS;
         Self {
@@ -183,11 +183,11 @@ fn weight(at: i64) -> u64 {
 }
 
 /// Returns the photograph at half its size, averaging four pixels.
-fn halved(photograph: &RgbImage) -> RgbImage {
-    let (width, height) = (photograph.width() / 2, photograph.height() / 2);
-    let stride = photograph.width() as usize * 3;
+fn halved(photo: &RgbImage) -> RgbImage {
+    let (width, height) = (photo.width() / 2, photo.height() / 2);
+    let stride = photo.width() as usize * 3;
     let mut small = RgbImage::new(width, height);
-    let rows = photograph.as_raw().chunks_exact(2 * stride);
+    let rows = photo.as_raw().chunks_exact(2 * stride);
     for (target, pair) in small.chunks_exact_mut(width as usize * 3).zip(rows) {
         let (upper, lower) = pair.split_at(stride);
         let fours = upper.chunks_exact(6).zip(lower.chunks_exact(6));
@@ -247,24 +247,24 @@ mod tests {
     }
 
     #[test]
-    fn straight_on_it_is_the_photograph_itself() {
-        let photograph = colorful(40, 30);
+    fn without_warp_it_is_the_image_itself() {
+        let photo = colorful(40, 30);
         let corners = [(10.0, 5.0), (50.0, 5.0), (50.0, 35.0), (10.0, 35.0)];
         let shift = Matrix3::new(1.0, 0.0, -10.5, 0.0, 1.0, -5.5, 0.0, 0.0, 1.0);
         let mut warped = canvas();
-        warped.warped_photograph(&corners, &shift, &photograph);
+        warped.warped_photograph(&corners, &shift, &photo);
         let mut plain = canvas();
-        plain.photograph(Rect::new(10.0, 5.0, 40.0, 30.0), &photograph);
+        plain.photograph(Rect::new(10.0, 5.0, 40.0, 30.0), &photo);
         assert_eq!(warped.finish().rgba(), plain.finish().rgba());
     }
 
     #[test]
     fn it_stays_within_its_corners_and_the_clip() {
-        let photograph = RgbImage::from_pixel(64, 48, Rgb([1, 2, 3]));
+        let photo = RgbImage::from_pixel(64, 48, Rgb([1, 2, 3]));
         let corners = [(10.0, 5.0), (50.0, 12.0), (50.0, 30.0), (10.0, 35.0)];
         let mut canvas = canvas();
         canvas.clipped(Rect::new(0.0, 0.0, 40.0, 40.0), |canvas| {
-            canvas.warped_photograph(&corners, &Matrix3::identity(), &photograph);
+            canvas.warped_photograph(&corners, &Matrix3::identity(), &photo);
         });
         let picture = canvas.finish();
         let background = Theme::Light.color(Role::Background);
@@ -293,11 +293,11 @@ mod tests {
         bad.warped_photograph(&corners, &(scale * f64::INFINITY), &checks);
         bad.warped_photograph(&corners, &scale, &RgbImage::new(0, 0));
         assert_eq!(bad.finish().hash(), empty);
-        let mut odd = canvas();
+        let mut invalid = canvas();
         let far = [(1e30, -1e30), (2e30, 0.0), (1e30, 1e30), (0.0, 0.0)];
-        odd.warped_photograph(&far, &scale, &checks);
+        invalid.warped_photograph(&far, &scale, &checks);
         let dot = RgbImage::from_pixel(1, 1, Rgb([255; 3]));
-        odd.warped_photograph(&corners, &Matrix3::zeros(), &dot);
-        assert_eq!(odd.finish().rgba()[4 * (60 * 9 + 14)], 255);
+        invalid.warped_photograph(&corners, &Matrix3::zeros(), &dot);
+        assert_eq!(invalid.finish().rgba()[4 * (60 * 9 + 14)], 255);
     }
 }

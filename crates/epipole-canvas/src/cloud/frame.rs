@@ -1,6 +1,6 @@
 //! Rendered view of a scene, with the depth and the point index of each pixel.
 
-use super::picture::Standing;
+use super::picture::ProjectedPicture;
 use super::{Line, Orbit, Scene, surface};
 
 /// Options for drawing a scene.
@@ -78,8 +78,8 @@ impl Frame {
             });
         }
         for picture in &scene.pictures {
-            if let Some(standing) = Standing::new(picture, orbit, size) {
-                self.picture(&standing);
+            if let Some(projected) = ProjectedPicture::new(picture, orbit, size) {
+                self.picture(&projected);
             }
         }
         for line in &scene.lines {
@@ -137,10 +137,10 @@ impl Frame {
         }
     }
 
-    fn picture(&mut self, standing: &Standing<'_>) {
-        for row in standing.rows.clone() {
-            for column in standing.columns.clone() {
-                let Some((depth, color)) = standing.seen(column, row) else {
+    fn picture(&mut self, projected: &ProjectedPicture<'_>) {
+        for row in projected.rows.clone() {
+            for column in projected.columns.clone() {
+                let Some((depth, color)) = projected.sample(column, row) else {
                     continue;
                 };
                 self.plot(row * self.width + column, depth, NONE, color);
@@ -164,10 +164,10 @@ impl Frame {
             .ceil()
             .clamp(1.0, 40_000.0);
         for step in 0..=steps as usize {
-            let share = start + (end - start) * step as f64 / steps;
-            let (u, v) = (from[0] + share * du, from[1] + share * dv);
+            let fraction = start + (end - start) * step as f64 / steps;
+            let (u, v) = (from[0] + fraction * du, from[1] + fraction * dv);
             // Inverse depth is linear in the picture.
-            let depth = (1.0 / ((1.0 - share) / near + share / far)) as f32;
+            let depth = (1.0 / ((1.0 - fraction) / near + fraction / far)) as f32;
             if !(u >= 0.0 && v >= 0.0 && u < size.0 as f64 && v < size.1 as f64) {
                 continue;
             }
@@ -248,12 +248,12 @@ mod tests {
         scene.points.push(([0.0, 0.0, 1.0], [255, 0, 0]));
         scene.points.push(([0.0, 0.0, -1.0], [0, 255, 0]));
         let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);
-        orbit.turn(0.0, -orbit.pitch_rad);
+        orbit.rotate(0.0, -orbit.pitch_rad);
         let mut frame = Frame::default();
         frame.draw(&scene, &orbit, (40, 40), &Look::default());
         assert_eq!(frame.pick(20.0, 20.0, 2), Some(1));
         // Seen from behind, the other point is in front.
-        orbit.turn(std::f64::consts::PI, 0.0);
+        orbit.rotate(std::f64::consts::PI, 0.0);
         frame.draw(&scene, &orbit, (40, 40), &Look::default());
         assert_eq!(frame.pick(20.0, 20.0, 2), Some(0));
     }
@@ -302,7 +302,7 @@ mod tests {
             color: [0, 0, 255],
         });
         let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);
-        orbit.turn(0.0, -orbit.pitch_rad);
+        orbit.rotate(0.0, -orbit.pitch_rad);
         let mut frame = Frame::default();
         frame.draw(&scene, &orbit, (50, 30), &Look::default());
         let blue = frame

@@ -34,9 +34,9 @@ impl Orbit {
                 let mut values = Vec::with_capacity(scene.points.len());
                 let all = scene.points.iter().map(|(p, _)| p[axis]);
                 values.extend(all.filter(|v| v.is_finite()));
-                let mut at = |share: f64| {
+                let mut at = |fraction: f64| {
                     let last = values.len().saturating_sub(1);
-                    let place = (share * last as f64).round() as usize;
+                    let place = (fraction * last as f64).round() as usize;
                     match values.is_empty() {
                         true => 0.0,
                         false => f64::from(*values.select_nth_unstable_by(place, f32::total_cmp).1),
@@ -72,10 +72,10 @@ impl Orbit {
     /// Moves as near as possible with all points in the picture, plus a margin.
     pub fn fit(&mut self, places: &[[f64; 3]]) {
         let rotation = self.rotation();
-        let turned = places
+        let rotated = places
             .iter()
             .map(|place| rotation * (Point3::from(*place) - self.middle));
-        let outermost = Outermost::of(turned);
+        let outermost = Outermost::of(rotated);
         let (mut too_near, mut far) = self.bounds();
         let mut aside = Vector3::zeros();
         // Bisection, since proportional steps overshoot near a point, where projections grow fast.
@@ -107,7 +107,7 @@ impl Orbit {
     }
 
     /// Rotates the view, radians.
-    pub fn turn(&mut self, yaw_rad: f64, pitch_rad: f64) {
+    pub fn rotate(&mut self, yaw_rad: f64, pitch_rad: f64) {
         let most = 1.55;
         self.yaw_rad += yaw_rad;
         self.pitch_rad = (self.pitch_rad + pitch_rad).clamp(-most, most);
@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everything_that_is_to_be_seen_fills_the_picture() {
+    fn all_points_fill_the_picture() {
         let scene = Scene {
             points: vec![([0.0, 0.0, 5.0], [0; 3]), ([1.0, 0.5, 6.0], [0; 3])],
             ..Scene::default()
@@ -178,8 +178,9 @@ mod tests {
             let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]);
             orbit.look_along(forward);
             orbit.fit(&places);
-            let seen = places.map(|place| orbit.project(place.map(|x| x as f32), (1000, 1000)));
-            let pixels = seen.map(|seen| seen.expect("all are in front").0);
+            let projected =
+                places.map(|place| orbit.project(place.map(|x| x as f32), (1000, 1000)));
+            let pixels = projected.map(|projected| projected.expect("all are in front").0);
             let span = |axis: usize| {
                 let along = pixels.map(|pixel| pixel[axis]);
                 let least = along.iter().copied().fold(f64::INFINITY, f64::min);

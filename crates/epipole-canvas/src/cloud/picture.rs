@@ -20,11 +20,11 @@ pub struct Picture {
 }
 
 /// A picture in a view, with its mapping from pixels of the view and its depth.
-pub(super) struct Standing<'a> {
+pub(super) struct ProjectedPicture<'a> {
     picture: &'a Picture,
     /// Maps a ray `(x, y, 1)` of the view to `(s, t, 1) / depth`; s and t are fractions of the two
     /// sides.
-    shares_of_ray: Matrix3<f64>,
+    fractions_of_ray: Matrix3<f64>,
     focal_px: f64,
     half: (f64, f64),
     /// Columns and rows that may show it.
@@ -32,7 +32,7 @@ pub(super) struct Standing<'a> {
     pub(super) rows: std::ops::Range<usize>,
 }
 
-impl<'a> Standing<'a> {
+impl<'a> ProjectedPicture<'a> {
     /// Prepares a picture; `None` if it is edge-on, empty or out of view.
     pub(super) fn new(picture: &'a Picture, orbit: &Orbit, size: (usize, usize)) -> Option<Self> {
         let (width, height) = picture.size;
@@ -48,7 +48,7 @@ impl<'a> Standing<'a> {
             rotation * wide(picture.down),
         );
         let sides = Matrix3::from_columns(&[right, down, corner]);
-        let shares_of_ray = sides
+        let fractions_of_ray = sides
             .try_inverse()
             .filter(|m| m.iter().all(|x| x.is_finite()))?;
         let focal_px = Orbit::focal_px(size);
@@ -58,9 +58,9 @@ impl<'a> Standing<'a> {
         if corners.iter().all(|c| c.z > 1e-3 * orbit.distance) {
             // In front of the view, it lies within its projected corners.
             let span = |axis: usize, half: f64, most: usize| {
-                let seen = corners.map(|c| c[axis] / c.z * focal_px + half);
-                let low = seen.iter().copied().fold(f64::INFINITY, f64::min);
-                let high = seen.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let projected = corners.map(|c| c[axis] / c.z * focal_px + half);
+                let low = projected.iter().copied().fold(f64::INFINITY, f64::min);
+                let high = projected.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 (low.floor().max(0.0) as usize).min(most)..(high.ceil().max(0.0) as usize).min(most)
             };
             (columns, rows) = (span(0, half.0, size.0), span(1, half.1, size.1));
@@ -69,7 +69,7 @@ impl<'a> Standing<'a> {
         }
         Some(Self {
             picture,
-            shares_of_ray,
+            fractions_of_ray,
             focal_px,
             half,
             columns,
@@ -79,23 +79,23 @@ impl<'a> Standing<'a> {
 
     /// Returns the depth and the color of the picture at a pixel of the view; `None` outside of it
     /// and behind the view.
-    pub(super) fn seen(&self, column: usize, row: usize) -> Option<(f32, [u8; 3])> {
+    pub(super) fn sample(&self, column: usize, row: usize) -> Option<(f32, [u8; 3])> {
         let x = (column as f64 + 0.5 - self.half.0) / self.focal_px;
         let y = (row as f64 + 0.5 - self.half.1) / self.focal_px;
-        let shares = self.shares_of_ray * Vector3::new(x, y, 1.0);
+        let fractions = self.fractions_of_ray * Vector3::new(x, y, 1.0);
         // The comparison is false for NaN.
-        let is_in_front = shares.z > 0.0;
+        let is_in_front = fractions.z > 0.0;
         if !is_in_front {
             return None;
         }
-        let (s, t) = (shares.x / shares.z, shares.y / shares.z);
+        let (s, t) = (fractions.x / fractions.z, fractions.y / fractions.z);
         if !((0.0..1.0).contains(&s) && (0.0..1.0).contains(&t)) {
             return None;
         }
         let (width, height) = self.picture.size;
         let at = 3 * ((t * height as f64) as usize * width + (s * width as f64) as usize);
         let color = self.picture.rgb.get(at..at + 3)?.try_into().ok()?;
-        Some(((1.0 / shares.z) as f32, color))
+        Some(((1.0 / fractions.z) as f32, color))
     }
 }
 
@@ -119,7 +119,7 @@ mod tests {
 
     fn drawn(scene: &Scene, yaw_rad: f64) -> Frame {
         let mut orbit = Orbit::around(&Scene::default(), [0.0, 1.0, 0.0]);
-        orbit.turn(yaw_rad, -orbit.pitch_rad);
+        orbit.rotate(yaw_rad, -orbit.pitch_rad);
         orbit.distance = 4.0;
         let look = Look {
             background: [9; 3],
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_stands_upright_and_is_seen_mirrored_from_behind() {
+    fn a_picture_is_upright_and_mirrored_from_behind() {
         let scene = Scene {
             pictures: vec![picture()],
             ..Scene::default()
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn from_its_edge_or_with_too_few_pixels_it_is_not_seen() {
+    fn from_its_edge_or_with_too_few_pixels_it_is_invisible() {
         let scene = |picture| Scene {
             pictures: vec![picture],
             ..Scene::default()

@@ -57,13 +57,13 @@ fn corners(
     let focal_px = Orbit::focal_px(size) as f32;
     let half = [size.0 as f32 / 2.0, size.1 as f32 / 2.0];
     let corner = |&(place, color): &([f32; 3], [u8; 3])| {
-        let mut seen = rotation * (nalgebra::Vector3::from(place) - middle);
-        seen.z += distance;
+        let mut in_view = rotation * (nalgebra::Vector3::from(place) - middle);
+        in_view.z += distance;
         // The comparison is false for NaN.
-        let is_in_front = seen.z > 1e-3 * distance;
+        let is_in_front = in_view.z > 1e-3 * distance;
         is_in_front.then(|| Corner {
-            pixel: [0, 1].map(|axis| seen[axis] * (focal_px / seen.z) + half[axis]),
-            place: seen.into(),
+            pixel: [0, 1].map(|axis| in_view[axis] * (focal_px / in_view.z) + half[axis]),
+            place: in_view.into(),
             color,
         })
     };
@@ -156,7 +156,7 @@ mod tests {
 
     fn drawn(scene: &Scene, look: &Look) -> (Frame, Orbit) {
         let mut orbit = Orbit::around(scene, [0.0, 1.0, 0.0]);
-        orbit.turn(0.0, -orbit.pitch_rad);
+        orbit.rotate(0.0, -orbit.pitch_rad);
         let mut frame = Frame::default();
         frame.draw(scene, &orbit, (100, 80), look);
         (frame, orbit)
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_coarse_picture_has_the_corners_alone() {
+    fn a_coarse_picture_has_only_the_corners() {
         let look = Look {
             every: 2,
             ..Look::default()

@@ -27,7 +27,7 @@ pub(crate) fn steer(
             let moved = drag * pixels;
             orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
         } else {
-            orbit.turn(f64::from(drag.x) * -0.008, f64::from(drag.y) * -0.008);
+            orbit.rotate(f64::from(drag.x) * -0.008, f64::from(drag.y) * -0.008);
         }
     }
     if response.hovered() && touches.is_none() {
@@ -42,7 +42,7 @@ pub(crate) fn steer(
         if keys.shift {
             orbit.pan(24.0 * right, 24.0 * down, size);
         } else {
-            orbit.turn(-0.1 * right, -0.1 * down);
+            orbit.rotate(-0.1 * right, -0.1 * down);
         }
         let nearer = step(KeyName::Plus) + step(KeyName::Equals) - step(KeyName::Minus);
         orbit.zoom(libm::exp(0.15 * nearer));
@@ -78,7 +78,7 @@ pub(crate) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit
         Some(before) => (orbit.yaw_rad, orbit.pitch_rad) = (before.yaw_rad, before.pitch_rad),
         None => {
             orbit.look_along(forward.into());
-            orbit.turn(ASIDE_RAD, 0.0);
+            orbit.rotate(ASIDE_RAD, 0.0);
         }
     }
     let middle = orbit.middle;
