@@ -14,7 +14,7 @@ use crate::write::address;
 use crate::write::assets::{self, Assets, Modules};
 use crate::write::cards;
 use crate::write::compress;
-use crate::write::disk::{STAND_IN, write};
+use crate::write::disk::{PLACEHOLDER, write};
 use crate::write::frames::{self, Frame};
 use crate::write::manifest::{MANIFEST, manifest};
 use crate::write::manual::{Manual, read_reference};
@@ -224,7 +224,7 @@ impl Bound<'_> {
                 format!("{LAB_FOLDER}/index.html"),
                 template.without_lab(contents, pages)?,
             ),
-            (format!("{LAB_FOLDER}/{STAND_IN}"), String::new()),
+            (format!("{LAB_FOLDER}/{PLACEHOLDER}"), String::new()),
             ("robots.txt".to_owned(), address::robots(root.as_deref())),
             (".nojekyll".to_owned(), String::new()),
         ];

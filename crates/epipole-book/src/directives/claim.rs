@@ -1,7 +1,7 @@
 //! `{{#claim ransac-race outliers=0.8 | budget > 100}}`: invisible; the build fails if the figure
 //! contradicts it.
 
-use crate::parse::outline::{own_settings, with_wishes};
+use crate::parse::outline::{own_settings, with_settings};
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, Parser};
 use crate::render::insert::Insert;
@@ -27,7 +27,7 @@ impl Directive for Claim {
         let figure = parser.outline.nearest(wanted, &request.place)?;
         Ok(Claim {
             figure: figure.name.clone(),
-            settings: with_wishes(figure.settings.clone(), &own_settings(request.call)),
+            settings: with_settings(figure.settings.clone(), &own_settings(request.call)),
             claim: body.text().to_owned(),
         })
     }

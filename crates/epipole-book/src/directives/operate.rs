@@ -2,7 +2,7 @@
 //! when clicked, by a script of the page (`web/book/operate.ts`).
 
 use crate::html::escape;
-use crate::parse::outline::{Instance, own_settings, with_wishes};
+use crate::parse::outline::{Instance, own_settings, with_settings};
 use crate::parse::text::Request;
 use crate::render::directive::{Directive, ParsedText, Parser, Text};
 use crate::render::insert::Insert;
@@ -13,7 +13,7 @@ use crate::resolve::claims;
 /// The phrase and its settings. `T` is the stage of the phrase.
 pub(super) struct Do<T> {
     figure: Instance,
-    wishes: Vec<(String, String)>,
+    changes: Vec<(String, String)>,
     claim: Option<String>,
     /// States of the figure for readers who clicked other phrases before.
     after_others: [Vec<(String, String)>; 2],
@@ -24,7 +24,7 @@ pub(super) struct Do<T> {
 pub(super) struct Checked {
     /// Anchor of the figure.
     id: String,
-    wishes: Vec<(String, String)>,
+    changes: Vec<(String, String)>,
     words: Text,
 }
 
@@ -37,16 +37,16 @@ impl Directive for Do<ParsedText> {
         let ([wanted], Some(body)) = (&request.call.words[..], &request.body) else {
             return Err(how.to_owned());
         };
-        let wishes = own_settings(request.call);
-        if wishes.is_empty() || body.text().trim().is_empty() {
+        let changes = own_settings(request.call);
+        if changes.is_empty() || body.text().trim().is_empty() {
             return Err(how.to_owned());
         }
         let figure = parser.outline.nearest(wanted, &request.place)?;
         let outline = parser.outline;
         Ok(Do {
-            after_others: outline.after_others(figure, &request.place, &wishes),
+            after_others: outline.after_others(figure, &request.place, &changes),
             figure: figure.clone(),
-            wishes,
+            changes,
             claim: request.setting("claim").map(str::to_owned),
             words: parser.text(body),
         })
@@ -54,7 +54,7 @@ impl Directive for Do<ParsedText> {
 
     fn resolve(self, book: &Book) -> Result<Checked, String> {
         let Instance { name, settings, .. } = &self.figure;
-        let settings = with_wishes(settings.clone(), &self.wishes);
+        let settings = with_settings(settings.clone(), &self.changes);
         let facts = book.facts(name, &settings)?;
         if let Some(claim) = &self.claim {
             claims::check(claim, &facts)?;
@@ -67,15 +67,15 @@ impl Directive for Do<ParsedText> {
         }
         Ok(Checked {
             id: self.figure.id,
-            wishes: self.wishes,
+            changes: self.changes,
             words: self.words.resolve(book),
         })
     }
 
     fn render(checked: Checked, page: &mut Writer) -> Insert {
         let html = checked.words.inline(page);
-        let wishes = checked.wishes.into_iter();
-        let parameters = wishes.map(|(key, value)| (key, value.into()));
+        let changes = checked.changes.into_iter();
+        let parameters = changes.map(|(key, value)| (key, value.into()));
         let parameters = serde_json::Map::from_iter(parameters);
         let parameters = serde_json::Value::Object(parameters).to_string();
         Insert::inline(format!(

@@ -47,11 +47,11 @@ fn html(references: &References) -> String {
 }
 
 fn entry(work: &Reference) -> String {
-    let given_first = |author: &String| match author.split_once(',') {
-        Some((family, given)) => format!("{} {}", given.trim(), family.trim()),
+    let first_name_first = |author: &String| match author.split_once(',') {
+        Some((family, first_name)) => format!("{} {}", first_name.trim(), family.trim()),
         None => author.clone(),
     };
-    let authors: Vec<String> = work.authors.iter().map(given_first).collect();
+    let authors: Vec<String> = work.authors.iter().map(first_name_first).collect();
     let authors = match &authors[..] {
         [] => "Anonymous".to_owned(),
         [one] => one.clone(),

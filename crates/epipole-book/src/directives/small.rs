@@ -6,7 +6,7 @@
 //! If the page has a quiz, the page's script shows the number of questions solved.
 
 use crate::html::escape;
-use crate::parse::outline::{own_settings, with_wishes};
+use crate::parse::outline::{own_settings, with_settings};
 use crate::parse::text::Request;
 use crate::problems::Place;
 use crate::render::directive::{Directive, ParsedText, Parser, Text};
@@ -35,7 +35,7 @@ pub(super) struct Drawn {
     small: Small<Text>,
     posters: Posters,
     /// Attributes for the running figure.
-    life: String,
+    attributes: String,
 }
 
 impl Directive for Small<ParsedText> {
@@ -63,13 +63,13 @@ impl Directive for Small<ParsedText> {
         let problem = |error: String| format!("figure {name}: {error}");
         book.gallery.open(name, settings).map_err(problem)?;
         let posters = book.posters(name, settings, &[Room::Phone])?;
-        let life = match &self.moves {
+        let attributes = match &self.moves {
             Some(moves) => {
                 let moves = moves_of(moves, settings)?;
                 // The figure must accept all settings that the page will apply.
-                let there = with_wishes(settings.clone(), &moves);
+                let there = with_settings(settings.clone(), &moves);
                 book.gallery.open(name, &there).map_err(problem)?;
-                life(name, settings, &moves)
+                attributes(name, settings, &moves)
             }
             None => String::new(),
         };
@@ -83,7 +83,7 @@ impl Directive for Small<ParsedText> {
                 place: self.place,
             },
             posters,
-            life,
+            attributes,
         })
     }
 
@@ -91,7 +91,7 @@ impl Directive for Small<ParsedText> {
         let Drawn {
             small,
             posters,
-            life,
+            attributes,
         } = drawn;
         let pictures = pictures::add(page, &small.name, posters);
         let words = small.words.inline(page);
@@ -108,7 +108,7 @@ impl Directive for Small<ParsedText> {
         // The quiz of the page is known once that page is rendered.
         let solved = token(SOLVED, file_of(target));
         Insert::inline(format!(
-            "<a class=\"small\"{life} href=\"{href}\">{inside}{solved}</a>"
+            "<a class=\"small\"{attributes} href=\"{href}\">{inside}{solved}</a>"
         ))
     }
 }
@@ -135,7 +135,7 @@ fn moves_of(moves: &str, settings: &[(String, String)]) -> Result<Vec<(String, S
 }
 
 /// Renders the attributes that the script of the page reads.
-fn life(name: &str, settings: &[(String, String)], moves: &[(String, String)]) -> String {
+fn attributes(name: &str, settings: &[(String, String)], moves: &[(String, String)]) -> String {
     let object = |pairs: &[(String, String)]| {
         let pairs = pairs
             .iter()
@@ -160,7 +160,7 @@ mod tests {
         let moves = moves_of("turn=-30", &settings).unwrap();
         assert_eq!(moves, [("turn".to_owned(), "-30".to_owned())]);
         assert_eq!(
-            life("four-poses", &settings, &moves),
+            attributes("four-poses", &settings, &moves),
             " data-figure=\"four-poses\" data-state=\"{&quot;turn&quot;:&quot;16&quot;}\" \
              data-moves=\"{&quot;turn&quot;:&quot;-30&quot;}\""
         );

@@ -70,9 +70,9 @@ mod tests {
             let parts: String = labels.iter().map(|label| part(label)).collect();
             let mut tree = Tree::parse(&format!("<div class=\"listing\">{tabs}{parts}</div>"));
             keep_first_versions(&mut tree);
-            let kept = tree.all(".listing-part");
-            assert_eq!(kept.len(), 1);
-            assert_eq!(tree.text(kept[0]), "NumPy");
+            let shown = tree.all(".listing-part");
+            assert_eq!(shown.len(), 1);
+            assert_eq!(tree.text(shown[0]), "NumPy");
             let notes = tree.all(".listing-part + .listing-others");
             let notes: String = notes.into_iter().map(|note| tree.text(note)).collect();
             assert_eq!(notes, note);

@@ -21,7 +21,7 @@ pub(super) fn remove_instructions(tree: &mut Tree) {
 }
 
 fn without_instructions(html: &str) -> String {
-    let mut kept = String::new();
+    let mut remaining = String::new();
     // The number of the figure does not end like a sentence.
     let start = html.find("</a> ").map_or(0, |end| end + "</a> ".len());
     let (number, mut rest) = html.split_at(start);
@@ -30,10 +30,10 @@ fn without_instructions(html: &str) -> String {
         rest = &rest[sentence.len()..];
         let word = sentence.trim_start().split([' ', '<']).next();
         if !word.is_some_and(|word| IMPERATIVES.contains(&word)) {
-            kept.push_str(sentence);
+            remaining.push_str(sentence);
         }
     }
-    format!("{number}{}", kept.trim_start())
+    format!("{number}{}", remaining.trim_start())
 }
 
 #[cfg(test)]
@@ -42,7 +42,7 @@ mod tests {
 
     #[test]
     fn instructions_are_left_out() {
-        for (caption, kept) in [
+        for (caption, remaining) in [
             (
                 "<a class=\"figure-number\">Figure 1</a> Drag it. A point, at 3.5 m. Press <em>Go</em>. Line 2. Click it.",
                 "<a class=\"figure-number\">Figure 1</a> A point, at 3.5 m. Line 2.",
@@ -53,7 +53,7 @@ mod tests {
             ),
             ("Turn it.", ""),
         ] {
-            assert_eq!(without_instructions(caption), kept);
+            assert_eq!(without_instructions(caption), remaining);
         }
     }
 }

@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn formulas_are_mathml_3_and_say_their_latex_once() {
+    fn formulas_are_mathml_3_and_contain_their_latex_once() {
         let math = "<math><semantics><mrow displaystyle=\"false\"><mi>x</mi></mrow><annotation encoding=\"application/x-tex\">\\x</annotation></semantics></math>";
         let mut tree = Tree::parse(&format!(
             "<table><tr><th><span class=\"visually-hidden\">x</span><span aria-hidden=\"true\">{math}</span></th></tr></table>"

@@ -56,7 +56,7 @@ fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, Strin
         .ok_or_else(|| format!("there is no file {path} to include"))?;
     let mut chosen = Source::default();
     let mut inside = anchor.is_none();
-    let mut seen = inside;
+    let mut included = inside;
     let mut offset = 0;
     for line in source.text().split_inclusive('\n') {
         let end = marked(line, "ANCHOR_END:");
@@ -64,7 +64,7 @@ fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, Strin
         if begin.is_some() || end.is_some() {
             if anchor.is_some() && begin == anchor {
                 inside = true;
-                seen = true;
+                included = true;
             } else if anchor.is_some() && end == anchor {
                 inside = false;
             }
@@ -74,7 +74,7 @@ fn part(argument: &str, folder: &str, content: &Content) -> Result<Source, Strin
         offset += line.len();
     }
     match anchor {
-        Some(anchor) if !seen => Err(format!("{path} has no line with `ANCHOR: {anchor}`")),
+        Some(anchor) if !included => Err(format!("{path} has no line with `ANCHOR: {anchor}`")),
         _ => Ok(chosen),
     }
 }

@@ -55,14 +55,14 @@ impl Outline {
         &self,
         figure: &Instance,
         place: &Place,
-        wishes: &[(String, String)],
+        changes: &[(String, String)],
     ) -> [Vec<(String, String)>; 2] {
-        clicked_before(figure, (place, wishes), &self.acts).map(|clicked| {
+        clicked_before(figure, (place, changes), &self.acts).map(|clicked| {
             let start = figure.settings.clone();
             let settings = clicked
                 .iter()
-                .fold(start, |settings, act| with_wishes(settings, &act.wishes));
-            with_wishes(settings, wishes)
+                .fold(start, |settings, act| with_settings(settings, &act.changes));
+            with_settings(settings, changes)
         })
     }
 }
@@ -128,7 +128,7 @@ pub(crate) struct Act {
     place: Place,
     /// The anchor of the figure.
     figure: String,
-    pub(crate) wishes: Vec<(String, String)>,
+    pub(crate) changes: Vec<(String, String)>,
 }
 
 /// Returns all phrases of a chapter that set figures, in order; `all` are its figures.
@@ -142,11 +142,11 @@ fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
         };
         let place = source.place(directive.span.start);
         let figure = nearest(wanted, &place, all).ok()?.id.clone();
-        let wishes = own_settings(&directive);
+        let changes = own_settings(&directive);
         Some(Act {
             place,
             figure,
-            wishes,
+            changes,
         })
     };
     split(source).into_iter().filter_map(act).collect()
@@ -156,11 +156,11 @@ fn acts(source: &Source, all: &[Instance]) -> Vec<Act> {
 /// those above from the top down, and those below from the bottom up.
 fn clicked_before<'a>(
     figure: &Instance,
-    (place, wishes): (&Place, &[(String, String)]),
+    (place, changes): (&Place, &[(String, String)]),
     all: &'a [Act],
 ) -> [Vec<&'a Act>; 2] {
     let of_figure: Vec<&Act> = all.iter().filter(|act| act.figure == figure.id).collect();
-    let here = |act: &&Act| act.place == *place && act.wishes == wishes;
+    let here = |act: &&Act| act.place == *place && act.changes == changes;
     let Some(at) = of_figure.iter().position(here) else {
         return [Vec::new(), Vec::new()];
     };
@@ -169,13 +169,13 @@ fn clicked_before<'a>(
     [above, below]
 }
 
-/// Settings overridden by `wishes`.
-pub(crate) fn with_wishes(
+/// Settings overridden by `changes`.
+pub(crate) fn with_settings(
     mut settings: Vec<(String, String)>,
-    wishes: &[(String, String)],
+    changes: &[(String, String)],
 ) -> Vec<(String, String)> {
-    settings.retain(|(key, _)| wishes.iter().all(|(wish, _)| wish != key));
-    settings.extend_from_slice(wishes);
+    settings.retain(|(key, _)| changes.iter().all(|(changed, _)| changed != key));
+    settings.extend_from_slice(changes);
     settings
 }
 
@@ -259,16 +259,19 @@ mod tests {
         let all = instances(&source);
         let acts = acts(&source, &all);
         assert_eq!(acts.len(), 4);
-        let wish = |key: &str, value: &str| (key.to_owned(), value.to_owned());
-        let middle = [wish("a", "2"), wish("b", "1")];
+        let setting = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let middle = [setting("a", "2"), setting("b", "1")];
         let place = Place::new("a.md", 3);
         let [above, below] = clicked_before(&all[0], (&place, &middle), &acts);
         assert_eq!(above, [&acts[0]]);
         assert_eq!(below, [&acts[2]]);
-        let last = [wish("a", "4")];
+        let last = [setting("a", "4")];
         let [above, below] = clicked_before(&all[1], (&Place::new("a.md", 9), &last), &acts);
         assert!(above.is_empty() && below.is_empty());
-        let settings = with_wishes(vec![wish("a", "0"), wish("c", "5")], &middle);
-        assert_eq!(settings, [wish("c", "5"), wish("a", "2"), wish("b", "1")]);
+        let settings = with_settings(vec![setting("a", "0"), setting("c", "5")], &middle);
+        assert_eq!(
+            settings,
+            [setting("c", "5"), setting("a", "2"), setting("b", "1")]
+        );
     }
 }

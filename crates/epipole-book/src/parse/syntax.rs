@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_broken_says_so() {
+    fn broken_syntax_is_reported() {
         for text in [
             "{{#value a",
             "{{#}}",

@@ -83,20 +83,23 @@ pub(super) fn code_of(fence: &[Located]) -> String {
 }
 
 /// Returns the opening of a block, if a paragraph contains nothing else.
-pub(super) fn lone_opening<'t>(inner: &[Located], inserts: &'t [Insert]) -> Option<&'t dyn Block> {
-    match inserts.get(lone_index(inner)?)? {
+pub(super) fn single_opening<'t>(
+    inner: &[Located],
+    inserts: &'t [Insert],
+) -> Option<&'t dyn Block> {
+    match inserts.get(single_index(inner)?)? {
         Insert::Opening(opening) => Some(opening.as_ref()),
         _ => None,
     }
 }
 
 /// Returns the HTML of a paragraph with a single insert, and its text for the search index.
-pub(super) fn lone_block<'t>(
+pub(super) fn single_block<'t>(
     inner: &[Located],
     inserts: &'t [Insert],
     found: &'t [String],
 ) -> Option<(&'t str, &'t str)> {
-    let index = lone_index(inner)?;
+    let index = single_index(inner)?;
     match inserts.get(index)? {
         Insert::Block { html } => Some((html, found.get(index)?)),
         _ => None,
@@ -104,7 +107,7 @@ pub(super) fn lone_block<'t>(
 }
 
 /// Returns the index of the insert in a paragraph, if it contains nothing else.
-fn lone_index(inner: &[Located]) -> Option<usize> {
+fn single_index(inner: &[Located]) -> Option<usize> {
     let mut words = String::new();
     for (event, _) in inner {
         match event {

@@ -1,7 +1,7 @@
 //! Renders Markdown to HTML: placeholders replace directives while Markdown is parsed, and are
 //! replaced by the directives' HTML afterwards.
 
-use super::blocks::{code_of, collect, lone_block, lone_opening};
+use super::blocks::{code_of, collect, single_block, single_opening};
 use super::insert::{Block, Insert, Words, substitute};
 use super::links;
 use super::listing::listing;
@@ -90,11 +90,12 @@ impl Writer<'_> {
                 Event::Start(Tag::Paragraph) => {
                     next = end_of(events, at);
                     let inner = &events[at + 1..next - 1];
-                    if let Some(opening) = lone_opening(inner, text.inserts) {
+                    if let Some(opening) = single_opening(inner, text.inserts) {
                         let (html, end) = self.code_block(opening, events, next, text, place());
                         next = end;
                         out.push(Event::Html(html.into()));
-                    } else if let Some((block, words)) = lone_block(inner, text.inserts, text.found)
+                    } else if let Some((block, words)) =
+                        single_block(inner, text.inserts, text.found)
                     {
                         self.page.words.push_str(&format!(" {words} "));
                         out.push(Event::Html(block.to_owned().into()));

@@ -39,17 +39,17 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
         return Ok(Vec::new());
     }
     let tools = Tools::find(project)?;
-    let asked = serde_json::to_vec(requests)?;
+    let input_json = serde_json::to_vec(requests)?;
     let sources = SOURCES.map(|source| newest(&project.join(source)));
     let sources = sources.into_iter().collect::<Result<Vec<_>>>()?;
-    let key = fnv(&[&asked[..], format!("{sources:?}").as_bytes()].concat());
+    let key = fnv(&[&input_json[..], format!("{sources:?}").as_bytes()].concat());
     let cached = tools.work.join("panels.json");
-    let kept = std::fs::read(&cached).ok();
-    let kept: Option<Panels> = kept.and_then(|bytes| serde_json::from_slice(&bytes).ok());
-    if let Some(Panels { panels, .. }) = kept.filter(|kept| kept.key == key) {
+    let cache = std::fs::read(&cached).ok();
+    let cache: Option<Panels> = cache.and_then(|bytes| serde_json::from_slice(&bytes).ok());
+    if let Some(Panels { panels, .. }) = cache.filter(|cache| cache.key == key) {
         return Ok(panels);
     }
-    let panels = ask(&tools, asked, requests.len())?;
+    let panels = run_script(&tools, input_json, requests.len())?;
     let answer = Panels { key, panels };
     std::fs::write(&cached, serde_json::to_vec(&answer)?)
         .with_context(|| format!("cannot write {}", cached.display()))?;
@@ -57,7 +57,7 @@ pub(crate) fn make(project: &Path, requests: &[&PanelRequest]) -> Result<Vec<Str
 }
 
 /// Runs the script for `count` requests.
-fn ask(tools: &Tools, asked: Vec<u8>, count: usize) -> Result<Vec<String>> {
+fn run_script(tools: &Tools, input_json: Vec<u8>, count: usize) -> Result<Vec<String>> {
     let mut child = Command::new("node")
         .arg(SCRIPT)
         .current_dir(&tools.project)
@@ -67,12 +67,12 @@ fn ask(tools: &Tools, asked: Vec<u8>, count: usize) -> Result<Vec<String>> {
         .spawn()
         .context("node cannot be started: is it installed?")?;
     let input = child.stdin.take();
-    let writer = std::thread::spawn(move || input.map(|mut input| input.write_all(&asked)));
+    let writer = std::thread::spawn(move || input.map(|mut input| input.write_all(&input_json)));
     let output = child.wait_with_output()?;
     let written = writer.join();
     if !output.status.success() {
-        let said = String::from_utf8_lossy(&output.stderr);
-        bail!("{SCRIPT} failed:\n{}", said.trim());
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        bail!("{SCRIPT} failed:\n{}", stderr.trim());
     }
     if let Ok(Some(Err(error))) = written {
         return Err(error).with_context(|| format!("{SCRIPT} did not read what it was asked"));

@@ -9,8 +9,8 @@ use pulldown_cmark::{BlockQuoteKind, Event};
 pub(super) fn neighbors<'t>(events: &'t [Located], at: usize) -> (&'t str, &'t str) {
     let before = match at.checked_sub(1).map(|before| &events[before].0) {
         Some(Event::Text(words)) => {
-            let kept = words.trim_end_matches(['(', '[', '“', '‘']);
-            &words[kept.len()..]
+            let trimmed = words.trim_end_matches(['(', '[', '“', '‘']);
+            &words[trimmed.len()..]
         }
         _ => "",
     };

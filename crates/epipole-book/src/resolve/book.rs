@@ -62,7 +62,7 @@ impl<'a> Book<'a> {
             let snapshot = figure.snapshot()?;
             Ok((Facts::parse(&snapshot)?, snapshot.into_bytes()))
         };
-        let read = |kept: &[u8]| Facts::parse(std::str::from_utf8(kept).ok()?).ok();
+        let read = |bytes: &[u8]| Facts::parse(std::str::from_utf8(bytes).ok()?).ok();
         let facts = self.cache.get_or((name, settings, "facts"), read, make);
         let facts = Arc::new(facts.map_err(of_figure)?);
         lock().insert(key, facts.clone());

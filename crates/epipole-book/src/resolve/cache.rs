@@ -30,9 +30,9 @@ impl Cache {
     ) -> Result<T, String> {
         let key = fnv(format!("{DRAWN_BY}{name}{settings:?}{what}").as_bytes());
         let file = self.0.join(format!("{name}-{key:016x}"));
-        let kept = fs::read(&file).ok();
-        if let Some(kept) = kept.and_then(|bytes| read(&bytes)) {
-            return Ok(kept);
+        let cached = fs::read(&file).ok();
+        if let Some(cached) = cached.and_then(|bytes| read(&bytes)) {
+            return Ok(cached);
         }
         let (made, bytes) = make()?;
         // A failure to write the cache only costs time.
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_made_is_kept_for_its_key() {
+    fn results_are_cached_under_their_key() {
         let folder = tempfile::tempdir().unwrap();
         let cache = Cache::new(folder.path());
         let settings = [("size".to_owned(), "2".to_owned())];

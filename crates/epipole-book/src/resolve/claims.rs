@@ -35,16 +35,16 @@ fn check_one(test: &str, facts: &Facts) -> Result<(), String> {
             ));
         }
     };
-    let seen = look(left, facts)?;
+    let shown = look(left, facts)?;
     let holds = match operator {
-        "has" => seen.text.contains(&right),
-        "lacks" => !seen.text.contains(&right),
+        "has" => shown.text.contains(&right),
+        "lacks" => !shown.text.contains(&right),
         _ => {
-            let (a, b) = match (seen.number, value_of(&right, facts)) {
+            let (a, b) = match (shown.number, value_of(&right, facts)) {
                 (Some(a), Some(b)) => (a, b),
-                (_, None) => return words_compare(test, operator, &seen, &right),
+                (_, None) => return words_compare(test, operator, &shown, &right),
                 (None, _) => {
-                    return Err(format!("{left} is \"{}\", which is no number", seen.text));
+                    return Err(format!("{left} is \"{}\", which is no number", shown.text));
                 }
             };
             match operator {
@@ -57,28 +57,28 @@ fn check_one(test: &str, facts: &Facts) -> Result<(), String> {
             }
         }
     };
-    verdict(holds, test, &seen)
+    verdict(holds, test, &shown)
 }
 
-fn words_compare(test: &str, operator: &str, seen: &Shown, right: &str) -> Result<(), String> {
+fn words_compare(test: &str, operator: &str, shown: &Shown, right: &str) -> Result<(), String> {
     match operator {
-        "=" => verdict(seen.text == right, test, seen),
-        "!=" => verdict(seen.text != right, test, seen),
+        "=" => verdict(shown.text == right, test, shown),
+        "!=" => verdict(shown.text != right, test, shown),
         _ => Err(format!("\"{right}\" in the claim `{test}` is no number")),
     }
 }
 
-fn verdict(holds: bool, test: &str, seen: &Shown) -> Result<(), String> {
+fn verdict(holds: bool, test: &str, shown: &Shown) -> Result<(), String> {
     if holds {
         return Ok(());
     }
-    let exact = match seen.number {
-        Some(number) if !seen.text.contains(&number.to_string()) => format!(" ({number})"),
+    let exact = match shown.number {
+        Some(number) if !shown.text.contains(&number.to_string()) => format!(" ({number})"),
         _ => String::new(),
     };
     Err(format!(
         "the claim `{test}` is false: the figure shows \"{}\"{exact}",
-        seen.text
+        shown.text
     ))
 }
 

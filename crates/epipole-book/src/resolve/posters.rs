@@ -158,11 +158,11 @@ fn encode_for_paper(poster: &Poster) -> Result<Encoded, String> {
 }
 
 fn has_many_colors(rgba: &[u8]) -> bool {
-    let mut seen = vec![false; 1 << 24];
+    let mut is_used = vec![false; 1 << 24];
     let mut count = 0;
     rgba.chunks_exact(4).any(|pixel| {
         let color = u32::from_le_bytes([pixel[0], pixel[1], pixel[2], 0]);
-        count += usize::from(!std::mem::replace(&mut seen[color as usize], true));
+        count += usize::from(!std::mem::replace(&mut is_used[color as usize], true));
         count > MOST_COLORS
     })
 }
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn drawings_are_lossless_and_photographs_are_not() {
+    fn drawings_are_lossless_and_photos_are_not() {
         let poster = |level: fn(u32) -> u32| Poster {
             width: 256,
             height: 256,
@@ -231,11 +231,11 @@ mod tests {
         });
         assert_eq!(kind(&drawing), b"VP8L");
         assert!(!has_many_colors(&drawing.rgba));
-        let photograph = poster(|n| n.wrapping_mul(2_654_435_761) >> 8);
-        assert_ne!(kind(&photograph), b"VP8L");
+        let photo = poster(|n| n.wrapping_mul(2_654_435_761) >> 8);
+        assert_ne!(kind(&photo), b"VP8L");
         let start = |poster: &Poster| encode_for_paper(poster).unwrap().bytes[..4].to_vec();
         assert_eq!(start(&drawing)[..3], [0xff, 0xd8, 0xff]);
-        assert!(has_many_colors(&photograph.rgba));
+        assert!(has_many_colors(&photo.rgba));
     }
 
     #[test]

@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn no_slide_has_a_heading_alone() {
+    fn no_slide_has_only_a_heading() {
         let table = "<div class=\"table\"><table><tr><td>1</td></tr></table></div>";
         let html = format!("<section><h2 id=\"a\">One</h2>{table}</section>");
         let stacks = stacks(&html, "rays.html");

@@ -16,7 +16,7 @@ pub(super) fn slide(tree: &mut Tree, question: NodeId, heading: &str) -> Slide {
     for summary in tree.inside(question, "summary") {
         tree.remove(summary);
     }
-    let asked = html(tree, "legend").concat();
+    let prompt = html(tree, "legend").concat();
     let choices = html(tree, ".choice > span, .step > span");
     let list = match choices.is_empty() {
         true => String::new(),
@@ -28,7 +28,7 @@ pub(super) fn slide(tree: &mut Tree, question: NodeId, heading: &str) -> Slide {
     Slide {
         kind: Kind::Question,
         heading: heading.to_owned(),
-        body: format!("<p class=\"lead\">{}</p>{list}", asked.trim()),
+        body: format!("<p class=\"lead\">{}</p>{list}", prompt.trim()),
         actions: String::new(),
         notes: html(tree, "details").concat(),
     }

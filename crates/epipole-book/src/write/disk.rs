@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Marker file of a folder that contains the placeholder page of the Lab.
-pub(crate) const STAND_IN: &str = ".placeholder";
+pub(crate) const PLACEHOLDER: &str = ".placeholder";
 
 /// Writes the site to a temporary folder, which then replaces the old one, so that readers never
 /// see an incomplete site.
@@ -22,10 +22,10 @@ pub(crate) fn write(files: &BTreeMap<String, Vec<u8>>, out: &Path) -> Result<()>
         std::fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
     }
     // The old Lab is kept: it takes minutes to build, a chapter only seconds.
-    let (lab, kept) = (out.join(LAB_FOLDER), next.join(LAB_FOLDER));
-    if lab.is_dir() && !lab.join(STAND_IN).exists() {
-        remove(&kept)?;
-        std::fs::rename(&lab, &kept)
+    let (lab, next_lab) = (out.join(LAB_FOLDER), next.join(LAB_FOLDER));
+    if lab.is_dir() && !lab.join(PLACEHOLDER).exists() {
+        remove(&next_lab)?;
+        std::fs::rename(&lab, &next_lab)
             .with_context(|| format!("cannot keep the Lab at {}", lab.display()))?;
     }
     remove(out)?;

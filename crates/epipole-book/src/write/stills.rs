@@ -317,7 +317,7 @@ mod tests {
     }
 
     #[test]
-    fn drawings_keep_their_colors_and_photographs_become_coarse() {
+    fn drawings_keep_their_colors_and_photos_become_coarse() {
         let picture = page();
         let png = small(&picture).unwrap();
         let (palette, pixels) = read(&png);

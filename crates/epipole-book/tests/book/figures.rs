@@ -157,7 +157,7 @@ fn with_an_address_pages_are_found_under_it() {
 const PUBLISHED: &str = "[book]\ntitle = \"Tiny\"\nsrc = \".\"\n[output.epipole]\naddress = \"https://a.example/book\"\n";
 
 #[test]
-fn with_an_address_chapters_tell_search_engines_of_themselves() {
+fn with_an_address_chapters_have_metadata_for_search_engines() {
     const START: &str = "<script type=\"application/ld+json\">";
     let book = Book::new(&[
         (
@@ -190,7 +190,7 @@ fn with_an_address_chapters_tell_search_engines_of_themselves() {
 }
 
 #[test]
-fn with_an_address_frames_tell_oembed_of_themselves() {
+fn with_an_address_frames_have_oembed_metadata() {
     let book = Book::of_chapter("# One\n\nOld.\n");
     book.write("content/book.toml", PUBLISHED);
     book.must_build();

@@ -28,7 +28,7 @@ const PRINTED: [(&str, &str); 2] = [
 ];
 
 #[test]
-fn a_listing_has_tabs_and_says_what_it_prints() {
+fn a_listing_has_tabs_and_shows_its_output() {
     let mut files = vec![("SUMMARY.md", "- [One](one.md)\n"), ("one.md", LISTING)];
     files.extend(PRINTED);
     let book = Book::new(&files);
@@ -73,7 +73,7 @@ fn a_listing_has_tabs_and_says_what_it_prints() {
 }
 
 #[test]
-fn what_is_wrong_with_a_listing_is_told() {
+fn mistakes_in_a_listing_are_reported() {
     let long = format!("{}\n", "x".repeat(67));
     for (from, to, expected) in [
         (
@@ -114,8 +114,8 @@ fn what_is_wrong_with_a_listing_is_told() {
         ];
         files.extend(PRINTED);
         let problems = Book::new(&files).problems();
-        let is_told = problems.iter().any(|problem| problem.contains(expected));
-        assert!(is_told, "{expected}: {problems:?}");
+        let is_reported = problems.iter().any(|problem| problem.contains(expected));
+        assert!(is_reported, "{expected}: {problems:?}");
     }
     let files = [
         ("SUMMARY.md", "- [One](one.md)\n"),

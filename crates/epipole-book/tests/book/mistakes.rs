@@ -3,7 +3,7 @@
 use crate::tiny::Book;
 
 #[test]
-fn every_mistake_names_its_file_and_line_and_all_are_told() {
+fn every_mistake_is_reported_with_its_file_and_line() {
     let figure = "content/one.md:3: ";
     for (text, expected) in [
         (

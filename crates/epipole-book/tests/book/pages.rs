@@ -39,7 +39,7 @@ fn a_tiny_chapter_as_html() {
 }
 
 #[test]
-fn a_number_has_a_minus_sign_in_text_and_stands_in_formulas() {
+fn a_number_has_a_minus_sign_in_text_and_in_formulas() {
     let value = "{{#value camera.project-u f=500 cu=0 x=-1 z=2 digits=0}}";
     let book = Book::of_chapter(&format!("# One\n\n{value} and $u = {value}$.\n"));
     book.must_build();

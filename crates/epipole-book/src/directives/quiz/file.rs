@@ -125,7 +125,7 @@ fn kind<T>(written: &Written, place: &Place, text: &mut MakeText<T>) -> Result<K
         written.value.is_some(),
         written.answer.is_some(),
     ];
-    if kinds.iter().filter(|&&given| given).count() != 1 {
+    if kinds.iter().filter(|&&is_set| is_set).count() != 1 {
         return Err("give exactly one of choices, steps, value and answer".to_owned());
     }
     if !written.steps.is_empty() {

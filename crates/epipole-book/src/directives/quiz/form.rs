@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_stand_in_another_order_and_the_answer_tells_the_right_one() {
+    fn steps_are_shuffled_and_the_answer_has_the_right_order() {
         let start = "[[question]]\nid = 'a'\nprompt = 'P?'\nexplanation = 'E.'\n";
         let (html, problems) = rendered(&format!("{start}steps = ['one', 'two', 'three']"));
         assert_eq!(problems, Vec::<String>::new());
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_of_a_right_answer_tells_nothing() {
+    fn the_place_of_a_right_answer_is_unpredictable() {
         // Many questions with four choices, the first of which is correct.
         let places: Vec<usize> = (0..400)
             .map(|index| {

@@ -43,9 +43,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         summary: "distance from the middle of a ray at an angle, through an equidistant fisheye, pixels",
         compute: |a| {
             let (sin, cos) = libm::sincos(a.get("deg").to_radians());
-            let seen = Fisheye::default().project(&Vector3::new(sin, 0.0, cos));
-            let seen = seen.ok_or("the lens does not see this ray")?;
-            Ok(Real(a.get("f") * seen.coords.norm(), 0))
+            let projected = Fisheye::default().project(&Vector3::new(sin, 0.0, cos));
+            let projected = projected.ok_or("the lens does not see this ray")?;
+            Ok(Real(a.get("f") * projected.coords.norm(), 0))
         },
     },
     Entry {

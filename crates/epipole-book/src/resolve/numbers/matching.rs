@@ -35,9 +35,9 @@ pub(super) const ENTRIES: &[Entry] = &[
         compute: |a| {
             let list = |values| Descriptors::from_floats(1, values).map_err(sentence);
             let second = list(vec![a.get("d1") as f32, -a.get("d2") as f32])?;
-            let near = nearest_two(&list(vec![0.0])?, &second, &mut ()).map_err(sentence)?[0];
-            let second = near.second_distance.unwrap_or(f32::NAN);
-            Ok(Real(f64::from(near.distance) / f64::from(second), 3))
+            let nearest = nearest_two(&list(vec![0.0])?, &second, &mut ()).map_err(sentence)?[0];
+            let second = nearest.second_distance.unwrap_or(f32::NAN);
+            Ok(Real(f64::from(nearest.distance) / f64::from(second), 3))
         },
     },
 ];

@@ -75,8 +75,8 @@ pub(super) const ENTRIES: &[Entry] = &[
         summary: "column, in the row of the middle, after the camera turned right by deg degrees",
         compute: |a| {
             let intrinsics = camera(a.get("f"), a.get("cu"), 0.0)?;
-            let turn = RigidTransform::rotation(Vector3::y() * -a.get("deg").to_radians());
-            let homography = of_plane(&turn, f64::INFINITY, &intrinsics);
+            let rotation = RigidTransform::rotation(Vector3::y() * -a.get("deg").to_radians());
+            let homography = of_plane(&rotation, f64::INFINITY, &intrinsics);
             Ok(Real(transferred(&homography, a.get("u"), 0.0)?.x, 1))
         },
     },
@@ -88,8 +88,8 @@ pub(super) const ENTRIES: &[Entry] = &[
             let intrinsics = camera(a.get("f"), 0.0, 0.0)?;
             let step = RigidTransform::translation(-a.get("b"), 0.0, 0.0);
             let predicted = transferred(&of_plane(&step, a.get("wall"), &intrinsics), 0.0, 0.0)?;
-            let seen = transferred(&of_plane(&step, a.get("z"), &intrinsics), 0.0, 0.0)?;
-            Ok(Real((seen - predicted).norm(), 0))
+            let pixel = transferred(&of_plane(&step, a.get("z"), &intrinsics), 0.0, 0.0)?;
+            Ok(Real((pixel - predicted).norm(), 0))
         },
     },
 ];

@@ -49,9 +49,9 @@ pub(super) const ENTRIES: &[Entry] = &[
 
 /// Returns the probability that a sample contains only inliers, wˢ, for 0 < w < 1.
 fn all_inliers(a: &Arguments) -> Result<f64, String> {
-    let (share, size) = (a.get("w"), a.count("s")?);
-    if share <= 0.0 || share >= 1.0 || size == 0 {
+    let (ratio, size) = (a.get("w"), a.count("s")?);
+    if ratio <= 0.0 || ratio >= 1.0 || size == 0 {
         return Err("w must be between 0 and 1, and s at least 1".to_owned());
     }
-    Ok(libm::pow(share, size as f64))
+    Ok(libm::pow(ratio, size as f64))
 }

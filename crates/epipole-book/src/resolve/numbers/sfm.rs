@@ -62,10 +62,10 @@ fn crossing(a: &Arguments) -> Result<(f64, f64), String> {
     let motion = RigidTransform::new(t, Vector3::new(half_turn, 0.0, 0.0));
     let (x1, x2) = (Vector3::z(), Vector3::new(a.get("x"), 0.0, 1.0));
     // λ1 R x1 + t = λ2 x2, multiplied by x2 × and by R x1 ×.
-    let turned = motion.rotation * x1;
-    let normal = x2.cross(&turned);
+    let rotated = motion.rotation * x1;
+    let normal = x2.cross(&rotated);
     let depth = |ray: &Vector3<f64>| ray.cross(&t).dot(&normal) / normal.norm_squared();
-    let (depth1, depth2) = (-depth(&x2), -depth(&turned));
+    let (depth1, depth2) = (-depth(&x2), -depth(&rotated));
     match depth1.is_finite() && depth2.is_finite() {
         true => Ok((depth1, depth2)),
         false => Err("the rays are parallel".to_owned()),

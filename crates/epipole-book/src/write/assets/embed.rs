@@ -63,10 +63,10 @@ pub(super) fn add(tools: &Tools, parts: &Parts<'_>, assets: &mut Assets) -> Resu
     )?;
     let mut widget = format!("const INSIDE = {};\n", json!(inside)).into_bytes();
     widget.extend(glue);
-    let told = json!({"version": VERSION, "integrity": hashes});
-    let told = serde_json::to_vec_pretty(&told)?;
+    let manifest = json!({"version": VERSION, "integrity": hashes});
+    let manifest = serde_json::to_vec_pretty(&manifest)?;
     let files = [
-        (format!("embed/{VERSION}/integrity.json"), told),
+        (format!("embed/{VERSION}/integrity.json"), manifest),
         ("embed/widget.js".to_owned(), widget),
     ];
     assets.files.extend(files);

@@ -95,7 +95,7 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
         .map(|body| 1.0 / (body.len() as f64).sqrt())
         .collect();
     let mut shared = vec![0_i32; bodies.len()];
-    let mut near = vec![0_u32; telling.len()];
+    let mut counts = vec![0_u32; telling.len()];
     let mut window = VecDeque::new();
     let mut remembered = 0;
     let mut left: Vec<usize> = (0..bodies.len()).collect();
@@ -115,8 +115,8 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
         window.push_back(index);
         remembered += bodies[index].len();
         for &run in &runs[index] {
-            near[run] += 1;
-            if near[run] == 1 {
+            counts[run] += 1;
+            if counts[run] == 1 {
                 for &holder in &telling[run] {
                     shared[holder] += 1;
                 }
@@ -128,8 +128,8 @@ fn by_likeness(bodies: &[&[u8]]) -> Vec<usize> {
             };
             remembered -= bodies[gone].len();
             for &run in &runs[gone] {
-                near[run] -= 1;
-                if near[run] == 0 {
+                counts[run] -= 1;
+                if counts[run] == 0 {
                     for &holder in &telling[run] {
                         shared[holder] -= 1;
                     }
@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_that_are_alike_stand_together_and_do_what_they_did() {
+    fn similar_functions_are_adjacent_and_unchanged() {
         let before = two_kinds();
         let after = ordered(&before).unwrap();
         let (was, is) = (followed(&before), followed(&after));

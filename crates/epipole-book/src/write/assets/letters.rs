@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn letters_of_formulas_and_text_are_told_apart() {
+    fn letters_of_formulas_and_text_are_distinguished() {
         let html = "<p>αβ <math><mi>𝐱</mi></math>γ</p>".to_owned();
         let letters = used_letters(&[Page {
             html,
