@@ -134,10 +134,10 @@ mod tests {
             match read_bal(bad) {
                 Err(Error::Malformed {
                     line: got,
-                    message: said,
+                    message: text,
                 }) => {
                     assert_eq!(got, Some(line), "{bad:?}");
-                    assert!(said.contains(why), "{said}");
+                    assert!(text.contains(why), "{text}");
                 }
                 other => panic!("{bad:?} gave {other:?}"),
             }

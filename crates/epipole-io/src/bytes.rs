@@ -78,7 +78,7 @@ impl<'a> Bytes<'a> {
     }
 
     /// Reads text up to a byte 0.
-    pub(crate) fn terminated(&mut self) -> Result<String> {
+    pub(crate) fn c_string(&mut self) -> Result<String> {
         let at = self.position;
         let rest = &self.all[at..];
         let end = rest

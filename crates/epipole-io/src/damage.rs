@@ -4,9 +4,11 @@ use proptest::prelude::*;
 
 /// Returns a configuration of a thousand cases, or of `EPIPOLE_FUZZ_CASES`.
 pub(crate) fn config() -> ProptestConfig {
-    let told = std::env::var("EPIPOLE_FUZZ_CASES").ok();
+    let num_cases = std::env::var("EPIPOLE_FUZZ_CASES").ok();
     ProptestConfig {
-        cases: told.map_or(1000, |told| told.parse().expect("a number of cases")),
+        cases: num_cases.map_or(1000, |num_cases| {
+            num_cases.parse().expect("a number of cases")
+        }),
         failure_persistence: None,
         ..ProptestConfig::default()
     }
@@ -66,8 +68,8 @@ pub(crate) fn some_damage() -> impl Strategy<Value = Vec<Damage>> {
 }
 
 /// Returns the offset at a fraction of the length.
-fn place(share: f64, length: usize) -> usize {
-    ((share * (length + 1) as f64) as usize).min(length)
+fn place(fraction: f64, length: usize) -> usize {
+    ((fraction * (length + 1) as f64) as usize).min(length)
 }
 
 pub(crate) fn damage_bytes(bytes: &[u8], changes: &[Damage]) -> Vec<u8> {
@@ -95,12 +97,13 @@ pub(crate) fn damage_bytes(bytes: &[u8], changes: &[Damage]) -> Vec<u8> {
             }
             Damage::Word(at, word) => {
                 let is_blank = |b: &u8| b.is_ascii_whitespace();
-                let near = place(*at, length);
-                let start = bytes[..near]
+                let around = place(*at, length);
+                let start = bytes[..around]
                     .iter()
                     .rposition(is_blank)
                     .map_or(0, |i| i + 1);
-                let end = (bytes[near..].iter().position(is_blank)).map_or(length, |i| near + i);
+                let end =
+                    (bytes[around..].iter().position(is_blank)).map_or(length, |i| around + i);
                 bytes.splice(start..end, WORDS[*word].bytes());
             }
         }

@@ -90,9 +90,11 @@ fn without_intrinsics(text: &str) -> Cow<'_, str> {
         (Some((number, first)), Some((_, next)))
             if count(first) == Some(4) && count(next).is_some_and(|count| count > 4) =>
         {
-            let kept = text.lines().enumerate();
-            let kept = kept.map(|(index, line)| if index + 1 == number { "#" } else { line });
-            kept.flat_map(|line| [line, "\n"])
+            let retained = text.lines().enumerate();
+            let retained =
+                retained.map(|(index, line)| if index + 1 == number { "#" } else { line });
+            retained
+                .flat_map(|line| [line, "\n"])
                 .collect::<String>()
                 .into()
         }

@@ -61,7 +61,7 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
             .filter(|numbers| !numbers.iter().any(|number| number.is_nan()))
             .ok_or_else(|| {
                 let expected = match &header {
-                    Some(_) => format!("{N} numbers, {}", expected(names)),
+                    Some(_) => format!("{N} numbers, {}", describe_columns(names)),
                     None => format!("{N} numbers"),
                 };
                 Error::at(
@@ -86,7 +86,7 @@ pub(crate) fn read<const N: usize>(bytes: &[u8], names: &[[&str; N]]) -> Result<
     if is_counted && (counts(0.0) || counts(1.0)) {
         return Err(Error::malformed(format!(
             "the first column counts the rows, so it is no coordinate: remove it, or name the columns in a first line, {}",
-            expected(names)
+            describe_columns(names)
         )));
     }
     Ok(rows)
@@ -225,7 +225,7 @@ fn is_halved(line: &str, fields: &[Field], columns: usize) -> bool {
 }
 
 /// Describes the expected columns.
-fn expected<const N: usize>(names: &[[&str; N]]) -> String {
+fn describe_columns<const N: usize>(names: &[[&str; N]]) -> String {
     let known: Vec<String> = names.iter().map(|names| names.join(" ")).collect();
     known.join(" or ")
 }
@@ -254,7 +254,7 @@ impl<const N: usize> Header<N> {
             }),
             None => Err(Error::malformed(format!(
                 "the first line names no columns {}, but {}",
-                expected(known),
+                describe_columns(known),
                 names.join(" ")
             ))),
         }
@@ -373,8 +373,8 @@ mod tests {
                 "line 1: the first line names no columns u1 v1 u2 v2 or x1 y1 x2 y2, but u1 u2 v1",
             ),
         ] {
-            let told = read(text).unwrap_err().to_string();
-            assert!(told.contains(why), "{text}: {told}");
+            let message = read(text).unwrap_err().to_string();
+            assert!(message.contains(why), "{text}: {message}");
         }
         // The needed columns alone may count.
         let scan: String = (0..10).map(|n| format!("{n} 1.5 {n} 3\n")).collect();

@@ -28,14 +28,14 @@ pub(super) fn is_binary(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read_text(text: &str) -> Result<Cameras> {
-    named(read_cameras_text(text)?)
+    with_names(read_cameras_text(text)?)
 }
 
 pub(super) fn read_binary(bytes: &[u8]) -> Result<Cameras> {
-    named(read_cameras_binary(bytes)?)
+    with_names(read_cameras_binary(bytes)?)
 }
 
-fn named(cameras: Vec<ListedCamera>) -> Result<Cameras> {
+fn with_names(cameras: Vec<ListedCamera>) -> Result<Cameras> {
     let named = cameras.into_iter();
     Cameras::of_list(named.map(|(id, camera)| (id.to_string(), camera)))
 }

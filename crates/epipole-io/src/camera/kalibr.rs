@@ -196,8 +196,8 @@ cam1:
             let note = format!("camera cam0 is left out: {message}");
             assert!(rest.notes[0].starts_with(&note), "{:?}", rest.notes);
             // Nothing remains without the second camera.
-            let alone = CHAIN.split("cam1:").next().unwrap().replacen(from, to, 1);
-            let error = parse(&alone).unwrap_err();
+            let single = CHAIN.split("cam1:").next().unwrap().replacen(from, to, 1);
+            let error = parse(&single).unwrap_err();
             assert!(matches!(error, Error::Unsupported { .. }));
             assert!(error.to_string().starts_with(&note), "{error}");
         }

@@ -25,7 +25,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
     let mut all = Cameras::default();
     for n in 0..4 {
         let camera = if let Some(projection) = root.get(&format!("P{n}")) {
-            rectified(&projection, size)?
+            read_projection(&projection, size)?
         } else if let Some(k) = root.get(&format!("K_0{n}")) {
             with_lens(root, &k, n)?
         } else {
@@ -45,7 +45,7 @@ pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
 }
 
 /// Reads a projection K (I | t).
-fn rectified(field: &Field, size: Option<Size>) -> Result<NamedCamera> {
+fn read_projection(field: &Field, size: Option<Size>) -> Result<NamedCamera> {
     let p: [f64; 12] = field.array()?;
     let k = intrinsics(field, &[&p[..3], &p[4..7], &p[8..11]].concat())?;
     let (width, height) = size_or(size, "width and height")?;
@@ -58,7 +58,7 @@ fn rectified(field: &Field, size: Option<Size>) -> Result<NamedCamera> {
         translation(field, offset.into())?,
         UnitQuaternion::identity(),
     );
-    Ok(posed(
+    Ok(with_pose(
         Camera {
             width,
             height,
@@ -87,10 +87,10 @@ fn with_lens(root: &Field, k: &Field, n: usize) -> Result<NamedCamera> {
     };
     let place = part("T", "three numbers")?;
     let pose = motion(&part("R", "nine numbers")?, &place)?;
-    Ok(posed(camera, pose))
+    Ok(with_pose(camera, pose))
 }
 
-fn posed(camera: Camera, pose: RigidTransform) -> NamedCamera {
+fn with_pose(camera: Camera, pose: RigidTransform) -> NamedCamera {
     NamedCamera {
         cam_from_world: Some(pose),
         ..NamedCamera::new("", camera)

@@ -30,7 +30,7 @@ fn is_own(field: &Field) -> bool {
 }
 
 /// Returns the parameters, which may be the single value under the name of a variable.
-fn unwrapped<'a>(root: &Field<'a>) -> Field<'a> {
+fn unwrap_root<'a>(root: &Field<'a>) -> Field<'a> {
     let mut inner = root.entries().into_iter().map(|(_, field)| field);
     match is_own(root) {
         true => root.clone(),
@@ -39,12 +39,12 @@ fn unwrapped<'a>(root: &Field<'a>) -> Field<'a> {
 }
 
 pub(super) fn is_it(root: &Field) -> bool {
-    is_own(&unwrapped(root))
+    is_own(&unwrap_root(root))
 }
 
 /// * `size`: of the images, for a file without one
 pub(super) fn read(root: &Field, size: Option<Size>) -> Result<Cameras> {
-    let params = unwrapped(root);
+    let params = unwrap_root(root);
     let Some(left) = params.get("CameraParameters1") else {
         return Ok(Cameras::of(camera(&params, size)?));
     };
@@ -147,14 +147,14 @@ fn motion(params: &Field) -> Result<Option<RigidTransform>> {
     let [x, y, z] = translation.numbers()?[..] else {
         return Err(translation.wrong("is not three numbers"));
     };
-    let turn = matrix_rotation(&rotation, &rotation.numbers()?)?;
-    let turn = match is_transposed {
-        true => turn.inverse(),
-        false => turn,
+    let rotation_of_second = matrix_rotation(&rotation, &rotation.numbers()?)?;
+    let rotation_of_second = match is_transposed {
+        true => rotation_of_second.inverse(),
+        false => rotation_of_second,
     };
     Ok(Some(RigidTransform::from_parts(
         Translation3::new(x, y, z),
-        turn,
+        rotation_of_second,
     )))
 }
 

@@ -174,7 +174,7 @@ mod tests {
 
     /// The manual's equations, by hand.
     #[test]
-    fn a_calibration_projects_as_its_manual_says() {
+    fn a_calibration_projects_as_in_its_manual() {
         let camera = parse(CALIBRATION).unwrap().cameras[0].camera;
         let (x, y): (f64, f64) = (0.3, -0.2);
         let r2 = x * x + y * y;
@@ -184,10 +184,10 @@ mod tests {
         let bent_y = y * radial + p2 * (r2 + 2.0 * y * y) + 2.0 * p1 * x * y;
         let u = 320.0 + 3.5 + (500.0 + 1.5) * bent_x - 0.5;
         let v = 240.0 - 2.0 + 500.0 * bent_y - 0.5;
-        let seen = camera.project(&Point3::new(x, y, 1.0)).unwrap();
+        let projected = camera.project(&Point3::new(x, y, 1.0)).unwrap();
         assert!(
-            (seen - nalgebra::Point2::new(u, v)).norm() < 1e-10,
-            "{seen}"
+            (projected - nalgebra::Point2::new(u, v)).norm() < 1e-10,
+            "{projected}"
         );
         let skewed = CALIBRATION.replace("<b1>1.5</b1>", "<b2>1.5</b2>");
         let error = parse(&skewed).unwrap_err().to_string();

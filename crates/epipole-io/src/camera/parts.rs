@@ -106,7 +106,7 @@ pub(super) fn translation(field: &Field, [x, y, z]: [f64; 3]) -> Result<Translat
 /// translation.
 pub(super) fn motion(rotation: &Field, place: &Field) -> Result<RigidTransform> {
     let numbers = rotation.numbers()?;
-    let turn = match numbers[..] {
+    let quaternion = match numbers[..] {
         [x, y, z] if Vector3::new(x, y, z).norm() < FAR => {
             UnitQuaternion::from_scaled_axis(Vector3::new(x, y, z))
         }
@@ -118,7 +118,7 @@ pub(super) fn motion(rotation: &Field, place: &Field) -> Result<RigidTransform> 
     };
     Ok(RigidTransform::from_parts(
         translation(place, [x, y, z])?,
-        turn,
+        quaternion,
     ))
 }
 
@@ -201,12 +201,12 @@ mod tests {
         transposed.swap(5, 7);
         assert_eq!(intrinsics(&field, &transposed), intrinsics(&field, &k));
         assert!(intrinsics(&field, &k[..6]).is_err());
-        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3));
-        let numbers: Vec<f64> = (turn.to_rotation_matrix().matrix().transpose().iter())
+        let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3));
+        let numbers: Vec<f64> = (rotation.to_rotation_matrix().matrix().transpose().iter())
             .map(|x: &f64| (x * 1e5).round() / 1e5)
             .collect();
         let read = matrix_rotation(&field, &numbers).unwrap();
-        assert!(read.angle_to(&turn) < 1e-5);
+        assert!(read.angle_to(&rotation) < 1e-5);
         assert!(matrix_rotation(&field, &[0.5; 9]).is_err());
     }
 

@@ -28,7 +28,7 @@ const ROUNDED: f64 = 1e-4;
 /// ```
 pub fn read_q(bytes: &[u8]) -> Result<Matrix4<f64>> {
     let text = decode(bytes)?;
-    let q = match (plain(text), keyed(text)) {
+    let q = match (plain(text), numbers_of_q(text)) {
         (Some(numbers), _) | (None, Ok(numbers)) => of_numbers(numbers)?,
         (None, Err(error)) => of_rig(bytes).ok_or(error)??,
     };
@@ -61,7 +61,7 @@ fn plain(text: &str) -> Option<Vec<f64>> {
 }
 
 /// Returns the numbers of the key `Q`.
-fn keyed(text: &str) -> Result<Vec<f64>> {
+fn numbers_of_q(text: &str) -> Result<Vec<f64>> {
     let tree = Syntax::of(text).parse(text)?;
     let whole = Field::root(&tree);
     let root = whole.get("opencv_storage").unwrap_or(whole);

@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_matrix_alone_is_told_as_one() {
+    fn a_matrix_without_a_size_is_reported() {
         for text in [
             "500 0 320\n0 501 240\n0 0 1\n",
             "5.0e+02,0,320\n0,501,240\n0,0,1\n",

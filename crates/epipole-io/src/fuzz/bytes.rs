@@ -34,30 +34,32 @@ const STARTS: [&[u8]; 20] = [
 
 /// Reads the bytes with every reader of a format with a signature.
 fn read_all(bytes: &[u8]) -> Result<(), TestCaseError> {
-    let is_told = |error: crate::Error| !error.to_string().is_empty();
+    let has_message = |error: crate::Error| !error.to_string().is_empty();
     let options = DecodeOptions::default().with_max_pixels(20_000);
     match decode_gray(bytes, &options) {
         Ok(decoded) => prop_assert!(decoded.image.as_raw().iter().all(|gray| gray.is_finite())),
-        Err(error) => prop_assert!(is_told(error)),
+        Err(error) => prop_assert!(has_message(error)),
     }
-    prop_assert!(sensor_size(bytes).map_or_else(is_told, |_| true));
+    prop_assert!(sensor_size(bytes).map_or_else(has_message, |_| true));
     match read_ply(bytes) {
         Ok((cloud, _)) => {
             prop_assert!(cloud.points.iter().all(|x| x.iter().all(|x| x.is_finite())))
         }
-        Err(error) => prop_assert!(is_told(error)),
+        Err(error) => prop_assert!(has_message(error)),
     }
     match read_pfm(bytes) {
         Ok(image) => prop_assert!(image.as_raw().iter().all(|d| d.is_finite() || d.is_nan())),
-        Err(error) => prop_assert!(is_told(error)),
+        Err(error) => prop_assert!(has_message(error)),
     }
     match read_colmap_depth(bytes) {
         Ok(depth) => prop_assert!(depth.as_raw().iter().all(|z| *z > 0.0 || z.is_nan())),
-        Err(error) => prop_assert!(is_told(error)),
+        Err(error) => prop_assert!(has_message(error)),
     }
     let text = String::from_utf8_lossy(bytes);
-    prop_assert!(read_g2o(&text).map_or_else(is_told, |read| read.graph.size().0 > 0));
-    prop_assert!(read_bal(&text).map_or_else(is_told, |problem| !problem.observations.is_empty()));
+    prop_assert!(read_g2o(&text).map_or_else(has_message, |read| read.graph.size().0 > 0));
+    prop_assert!(
+        read_bal(&text).map_or_else(has_message, |problem| !problem.observations.is_empty())
+    );
     Ok(())
 }
 

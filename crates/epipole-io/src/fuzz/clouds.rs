@@ -23,14 +23,14 @@ proptest! {
             confidences: (0..num_confidences).map(|i| i as f32).collect(),
         };
         let (read, notes) = read_ply(&write_ply(&cloud)).unwrap();
-        let told = notes.first().and_then(|note| note.split(' ').next()?.parse().ok());
-        prop_assert_eq!(read.points.len() + told.unwrap_or(0), points.len());
-        for (given, got) in [
+        let num_left_out = notes.first().and_then(|note| note.split(' ').next()?.parse().ok());
+        prop_assert_eq!(read.points.len() + num_left_out.unwrap_or(0), points.len());
+        for (expected, got) in [
             (num_colors, read.colors.len()),
             (num_normals, read.normals.len()),
             (num_confidences, read.confidences.len()),
         ] {
-            let is_whole = given == points.len();
+            let is_whole = expected == points.len();
             prop_assert_eq!(got, if is_whole { read.points.len() } else { 0 });
         }
     }

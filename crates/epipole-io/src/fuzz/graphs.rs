@@ -33,7 +33,7 @@ const G2O: [&str; 6] = [
 ];
 
 /// Returns whether the error names a line of the text.
-fn is_told(error: &Error, text: &str) -> bool {
+fn has_message(error: &Error, text: &str) -> bool {
     match error {
         Error::Malformed { line, .. } => {
             line.is_some_and(|line| line >= 1 && line <= text.lines().count().max(1) + 1)
@@ -65,7 +65,7 @@ proptest! {
                     prop_assert!(read_bal(&write_bal(&problem)).is_ok());
                 }
             }
-            Err(error) => prop_assert!(is_told(&error, &text), "{} of {:?}", error, text),
+            Err(error) => prop_assert!(has_message(&error, &text), "{} of {:?}", error, text),
         }
     }
 
@@ -83,7 +83,7 @@ proptest! {
                     prop_assert!(read_g2o(&write_g2o(&graph)).is_ok());
                 }
             }
-            Err(error) => prop_assert!(is_told(&error, &text), "{} of {:?}", error, text),
+            Err(error) => prop_assert!(has_message(&error, &text), "{} of {:?}", error, text),
         }
     }
 

@@ -46,7 +46,7 @@ fn pixels() -> Vec<u8> {
 }
 
 /// Encodes an image in one of the formats, with EXIF data.
-fn encoded(format: usize, exif: Vec<u8>) -> Vec<u8> {
+fn encode(format: usize, exif: Vec<u8>) -> Vec<u8> {
     let pixels = pixels();
     let mut bytes = Vec::new();
     let size = (WIDTH, HEIGHT, ExtendedColorType::Rgb8);
@@ -69,7 +69,7 @@ fn write(
 }
 
 static RIGHT: LazyLock<[Vec<u8>; 3]> =
-    LazyLock::new(|| std::array::from_fn(|format| encoded(format, exif())));
+    LazyLock::new(|| std::array::from_fn(|format| encode(format, exif())));
 
 /// A BMP file, and a PNM file of 16 bits.
 static UNCOMPRESSED: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
@@ -133,8 +133,8 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
             prop_assert!(sides.contains(&(width, height)));
         }
         Err(error) => {
-            let told = matches!(error, Error::BadImage { .. } | Error::TooManyPixels { .. });
-            prop_assert!(told, "{}", error);
+            let is_expected = matches!(error, Error::BadImage { .. } | Error::TooManyPixels { .. });
+            prop_assert!(is_expected, "{}", error);
         }
     }
     Ok(())
@@ -186,6 +186,6 @@ proptest! {
     #[test]
     fn exif_data(format in 0..3_usize, changes in some_damage()) {
         let damaged = damage_bytes(&exif(), &changes);
-        check(&encoded(format, damaged))?;
+        check(&encode(format, damaged))?;
     }
 }

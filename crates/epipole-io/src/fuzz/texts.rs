@@ -126,24 +126,24 @@ fn check_trajectory(bytes: &[u8]) {
 }
 
 fn check_matches(bytes: &[u8]) {
-    let are_told = |error: &crate::Error| !error.to_string().is_empty();
+    let has_message = |error: &crate::Error| !error.to_string().is_empty();
     match read_matches(bytes) {
         Ok([first, second]) => {
             assert_eq!(first.len(), second.len());
             let mut all = first.iter().chain(&second);
             assert!(all.all(|p| !p.x.is_nan() && !p.y.is_nan()));
         }
-        Err(error) => assert!(are_told(&error)),
+        Err(error) => assert!(has_message(&error)),
     }
     match read_points_with_pixels(bytes) {
         Ok((pixels, points)) => {
             assert_eq!(pixels.len(), points.len());
             assert!(points.iter().all(|p| !p.iter().any(|x| x.is_nan())));
         }
-        Err(error) => assert!(are_told(&error)),
+        Err(error) => assert!(has_message(&error)),
     }
     if let Err(error) = read_points(bytes) {
-        assert!(are_told(&error));
+        assert!(has_message(&error));
     }
 }
 

@@ -311,8 +311,8 @@ mod tests {
             .project(&(model.images[0].cam_from_world * model.points[0].position))
             .unwrap();
         assert!((pixel - Point2::new(26.5 + 25.78125, 53.5 - 51.5625)).norm() < 1e-12);
-        let seen = model.images[0].keypoints[0];
-        assert_eq!(seen, Point2::new(26.5 + 26.5625, 53.5 - 53.125));
+        let keypoint = model.images[0].keypoints[0];
+        assert_eq!(keypoint, Point2::new(26.5 + 26.5625, 53.5 - 53.125));
         assert_eq!(model.points[0].track, [(0, 0)]);
         assert_eq!(notes.len(), 2, "{notes:?}");
         assert_eq!(

@@ -24,7 +24,7 @@ fn read_images(bytes: &[u8]) -> Result<Vec<ImagePart>> {
         let quaternion = bytes.f64s()?;
         let translation = bytes.f64s()?;
         let camera = bytes.u32()?;
-        let name = bytes.terminated()?;
+        let name = bytes.c_string()?;
         let mut keypoints = Vec::new();
         for _ in 0..bytes.count("keypoints", 24)? {
             let [x, y] = bytes.f64s()?;

@@ -65,7 +65,7 @@ impl ModelFormat {
                  integers"
             }
             Self::Ply => "points of the world",
-            Self::Glb => "y up, cameras looking along -z, the world turned by half a turn about x",
+            Self::Glb => "y up, cameras looking along -z, the world rotated by 180° about x",
             Self::Html => "a page that shows points and cameras of the world",
         }
     }
@@ -173,8 +173,8 @@ pub fn read_model_folder(folder: &dyn ModelFolder) -> Result<Option<ReadModel>> 
             ["cameras", "images", "points3D"].map(|name| folder.file(&format!("{name}.{ending}")));
         let (cameras, images) = match (cameras, images) {
             (Some(cameras), Some(images)) => (cameras, images),
-            (Some(_), None) => return Err(alone("cameras", "images", ending)),
-            (None, Some(_)) => return Err(alone("images", "cameras", ending)),
+            (Some(_), None) => return Err(missing_companion("cameras", "images", ending)),
+            (None, Some(_)) => return Err(missing_companion("images", "cameras", ending)),
             (None, None) => continue,
         };
         let [rigs, frames] =
@@ -207,7 +207,7 @@ pub fn read_model_folder(folder: &dyn ModelFolder) -> Result<Option<ReadModel>> 
     Ok(None)
 }
 
-fn alone(this: &str, other: &str, ending: &str) -> Error {
+fn missing_companion(this: &str, other: &str, ending: &str) -> Error {
     Error::malformed(format!(
         "a COLMAP model needs {other}.{ending} beside {this}.{ending}"
     ))

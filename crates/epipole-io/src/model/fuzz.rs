@@ -30,7 +30,7 @@ fn back(model: &Model, format: ModelFormat) -> Model {
 }
 
 /// Removes the parts that the format does not keep.
-fn kept(format: ModelFormat, mut model: Model) -> Model {
+fn representable(format: ModelFormat, mut model: Model) -> Model {
     match format {
         ModelFormat::Transforms => {
             for image in &mut model.images {
@@ -64,10 +64,10 @@ fn a_model_survives_each_format() {
         (ModelFormat::OpenMvg, &all[..3], true),
     ] {
         for lens in 0..lenses.len() {
-            let mut turned = lenses.to_vec();
-            turned.rotate_left(lens);
-            let model = example(&turned, is_square);
-            let expected = kept(format, model.clone());
+            let mut rotated = lenses.to_vec();
+            rotated.rotate_left(lens);
+            let model = example(&rotated, is_square);
+            let expected = representable(format, model.clone());
             let read = back(&model, format);
             if matches!(format, ModelFormat::ColmapText | ModelFormat::ColmapBinary) {
                 assert_eq!(read.camera_ids, model.camera_ids);
@@ -93,10 +93,13 @@ fn rigs_survive_colmap() {
         without.rigs.pop();
         without.rigs[0].frames.pop();
         let read = back(&without, format);
-        let [rig, alone] = &read.rigs[..] else {
+        let [rig, single] = &read.rigs[..] else {
             panic!("two rigs");
         };
-        assert_eq!((rig.frames.len(), alone.id, alone.frames.len()), (2, 6, 1));
+        assert_eq!(
+            (rig.frames.len(), single.id, single.frames.len()),
+            (2, 6, 1)
+        );
         assert!(difference(&read, &model) < 1e-12);
     }
 }

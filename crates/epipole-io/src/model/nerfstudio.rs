@@ -62,7 +62,7 @@ pub(super) fn read(bytes: &[u8], folder: &dyn ModelFolder) -> Result<(Model, Vec
             .and_then(|frame| frame.get("file_path")?.text()))
         .and_then(|name| folder.image_size(name)),
     };
-    let (mut left_out, mut kept) = (LeftOut::default(), Vec::new());
+    let (mut left_out, mut used) = (LeftOut::default(), Vec::new());
     for (index, frame) in frames.iter().enumerate() {
         let name = frame.need("file_path", "the image of the frame")?.word()?;
         let camera = match set_aside(camera_of_frame(frame, &document, size))? {
@@ -72,7 +72,7 @@ pub(super) fn read(bytes: &[u8], folder: &dyn ModelFolder) -> Result<(Model, Vec
                 continue;
             }
         };
-        kept.push(frame);
+        used.push(frame);
         images.push(ModelImage {
             id: u32::try_from(index + 1).unwrap_or(u32::MAX),
             name: name.to_owned(),
@@ -86,7 +86,7 @@ pub(super) fn read(bytes: &[u8], folder: &dyn ModelFolder) -> Result<(Model, Vec
         let id = frame.get("colmap_im_id")?.whole().ok()?;
         u32::try_from(id).ok()
     };
-    let ids: Vec<u32> = kept.iter().filter_map(|frame| id(frame)).collect();
+    let ids: Vec<u32> = used.iter().filter_map(|frame| id(frame)).collect();
     if ids.len() == images.len() && ids.iter().collect::<BTreeSet<_>>().len() == ids.len() {
         for (image, id) in images.iter_mut().zip(ids) {
             image.id = id;
@@ -222,8 +222,8 @@ mod tests {
         assert_eq!((first.id, &*first.name), (7, "./images/a b.png"));
         assert_eq!(first.center_in_world(), Point3::new(1.0, 2.0, 3.0));
         // In front of it, above it, right of it.
-        let seen = first.cam_from_world * Point3::new(1.5, 3.0, 1.0);
-        assert!((seen - Point3::new(0.5, -1.0, 2.0)).norm() < 1e-15);
+        let in_cam = first.cam_from_world * Point3::new(1.5, 3.0, 1.0);
+        assert!((in_cam - Point3::new(0.5, -1.0, 2.0)).norm() < 1e-15);
         let k = model.cameras[first.camera].intrinsics;
         assert!((k.fu_px() - 320.0).abs() < 1e-12 && k.principal_point().y == 239.5);
         let k = model.cameras[model.images[1].camera].intrinsics;

@@ -19,8 +19,8 @@ impl LeftOut {
     ///
     /// # Errors
     /// [`Error::Unsupported`] if no image remains.
-    pub(super) fn notes(&self, num_kept: usize) -> Result<Vec<String>> {
-        if let (0, Some((why, _))) = (num_kept, self.0.first_key_value()) {
+    pub(super) fn notes(&self, num_remaining: usize) -> Result<Vec<String>> {
+        if let (0, Some((why, _))) = (num_remaining, self.0.first_key_value()) {
             return Err(Error::unsupported(why));
         }
         let sentence = |(why, images): (&String, &Vec<String>)| match images.len() {

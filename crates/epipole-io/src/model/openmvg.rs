@@ -304,12 +304,12 @@ impl Model {
         }
         let mut structure = Vec::new();
         for point in &self.points {
-            let seen = |&(image, keypoint): &(usize, usize)| {
+            let is_observed = |&(image, keypoint): &(usize, usize)| {
                 let image = &self.images[image];
                 let x = image.keypoints[keypoint];
                 json!({ "key": image.id, "value": { "id_feat": keypoint, "x": [x.x, x.y] } })
             };
-            let observations: Vec<Value> = point.track.iter().map(seen).collect();
+            let observations: Vec<Value> = point.track.iter().map(is_observed).collect();
             let p = point.position;
             structure.push(json!({ "key": point.id, "value": {
                 "X": [p.x, p.y, p.z], "observations": observations,
@@ -367,8 +367,8 @@ mod tests {
             (image.id, &*image.name, image.camera),
             (0, "left/a b.JPG", 1)
         );
-        let seen = image.cam_from_world * Point3::new(1.0, 3.0, 5.0);
-        assert!((seen - Point3::new(1.0, 0.0, 2.0)).norm() < 1e-15);
+        let in_cam = image.cam_from_world * Point3::new(1.0, 3.0, 5.0);
+        assert!((in_cam - Point3::new(1.0, 0.0, 2.0)).norm() < 1e-15);
         assert_eq!(model.points[0].track, [(0, 0)]);
         assert!((model.mean_reprojection_px().unwrap().unwrap() - 0.5).abs() < 1e-12);
         assert_eq!(notes.len(), 2, "{notes:?}");

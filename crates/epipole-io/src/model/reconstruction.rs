@@ -82,8 +82,8 @@ impl Model {
             for element in &track {
                 let image = element.image as usize;
                 if let Some(pixel) = reconstruction.project(image, &point.position) {
-                    let seen = images[image].keypoints[element.keypoint as usize];
-                    sum += (pixel - seen).norm_squared();
+                    let observed = images[image].keypoints[element.keypoint as usize];
+                    sum += (pixel - observed).norm_squared();
                 }
             }
             let rms_px = (sum / track.len() as f64).sqrt();

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// Maximum angle between an image and its pose by the rig, radians, that counts as rounding.
 const MAX_ANGLE_RAD: f64 = 1e-6;
 /// Maximum distance between both, relative to the translations involved.
-const MAX_SHARE: f64 = 1e-6;
+const MAX_RATIO: f64 = 1e-6;
 
 /// Cameras that are fixed to each other, and the moments at which they took images.
 #[derive(Debug, Clone, PartialEq)]
@@ -142,7 +142,7 @@ impl Model {
         let scale = length(&camera.cam_from_rig) + length(&frame.rig_from_world);
         let off = (image.cam_from_world.translation.vector - expected.translation.vector).norm();
         let angle_rad = image.cam_from_world.rotation.angle_to(&expected.rotation);
-        off <= MAX_SHARE * scale && angle_rad <= MAX_ANGLE_RAD
+        off <= MAX_RATIO * scale && angle_rad <= MAX_ANGLE_RAD
     }
 }
 
@@ -168,9 +168,9 @@ mod tests {
         assert!(of(&|m| m.rigs[0].frames[0].images[0] = 9).contains("image 9 is missing"));
         let moved = of(&|m| m.images[1].cam_from_world.translation.x += 1e-3);
         assert!(moved.contains("is not where frame"), "{moved}");
-        let turned = of(&|m| {
+        let rotated = of(&|m| {
             m.rigs[0].cameras[1].cam_from_rig.rotation = m.images[0].cam_from_world.rotation
         });
-        assert!(turned.contains("is not where frame"), "{turned}");
+        assert!(rotated.contains("is not where frame"), "{rotated}");
     }
 }

@@ -131,7 +131,9 @@ pub fn sensor_size(bytes: &[u8]) -> Result<(u32, u32)> {
         Format::Other(format) => format,
     };
     let reader = ImageReader::with_format(Cursor::new(bytes), format);
-    reader.into_dimensions().map_err(|error| said(&error))
+    reader
+        .into_dimensions()
+        .map_err(|error| decoder_error(&error))
 }
 
 /// An image with the given kind of pixels.
@@ -153,7 +155,7 @@ fn decode<P: Pixel + 'static>(
     let range = raster.mapped(options.range);
     let mut image = make(raster, range);
     if options.apply_orientation {
-        turn_upright(&mut image, orientation);
+        rotate_upright(&mut image, orientation);
     }
     Ok(Decoded {
         image,
@@ -195,13 +197,15 @@ fn read(bytes: &[u8], max_pixels: u64) -> Result<File> {
     };
     let mut reader = ImageReader::with_format(Cursor::new(&*whole), format);
     reader.limits(limits());
-    let mut decoder = reader.into_decoder().map_err(|error| said(&error))?;
+    let mut decoder = reader
+        .into_decoder()
+        .map_err(|error| decoder_error(&error))?;
     let (width, height) = decoder.dimensions();
     check_size(width, height, max_pixels)?;
     // Unreadable metadata are treated as absent, because the image is still useful.
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let exif = decoder.exif_metadata().unwrap_or(None);
-    let image = DynamicImage::from_decoder(decoder).map_err(|error| said(&error))?;
+    let image = DynamicImage::from_decoder(decoder).map_err(|error| decoder_error(&error))?;
     let mut raster = Raster::from_dynamic(image)?;
     if format == ImageFormat::Pnm
         && let Ok(decoder) = PnmDecoder::new(Cursor::new(bytes))
@@ -225,7 +229,7 @@ pub(super) fn limits() -> Limits {
 }
 
 /// Describes the error of a decoder.
-fn said(error: &image::ImageError) -> Error {
+fn decoder_error(error: &image::ImageError) -> Error {
     use image::ImageError::{Limits, Unsupported};
     match error {
         // A size beyond memory, detected before the caller's limit is checked, or
@@ -236,7 +240,7 @@ fn said(error: &image::ImageError) -> Error {
     }
 }
 
-fn turn_upright<P: Pixel + 'static>(image: &mut Buffer<P>, orientation: Orientation) {
+fn rotate_upright<P: Pixel + 'static>(image: &mut Buffer<P>, orientation: Orientation) {
     match orientation {
         Orientation::NoTransforms => (),
         Orientation::Rotate90 => *image = imageops::rotate90(image),

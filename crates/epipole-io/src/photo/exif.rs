@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sensor_width_turns_millimeters_into_pixels() {
+    fn a_sensor_width_converts_millimeters_to_pixels() {
         // 5 mm on a sensor of 8 mm, regardless of the resolution of the focal plane.
         let facts = Facts::read(&block(3, 50)).unwrap();
         assert_eq!(facts.focal_length_mm(), Some(5.0));

@@ -125,31 +125,33 @@ pub(super) fn check_size(width: u32, height: u32, max_pixels: u64) -> Result<(),
 mod tests {
     use super::*;
 
-    fn told(bytes: &[u8]) -> String {
+    fn error_of(bytes: &[u8]) -> String {
         recognize(bytes).unwrap_err().to_string()
     }
 
     #[test]
     fn other_formats_are_named_with_advice() {
-        let heic = told(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic");
+        let heic = error_of(b"\0\0\0\x18ftypheic\0\0\0\0mif1heic");
         let expected = "it is a HEIC file, which is not supported; convert it to JPEG or PNG";
         assert!(heic.ends_with(expected), "{heic}");
-        let avif = told(b"\0\0\0\x1cftypavif\0\0\0\0");
+        let avif = error_of(b"\0\0\0\x1cftypavif\0\0\0\0");
         assert!(avif.contains("it is an AVIF file"), "{avif}");
-        let gif = told(b"GIF89a\x01\0\x01\0\0\0\0");
+        let gif = error_of(b"GIF89a\x01\0\x01\0\0\0\0");
         assert!(gif.contains("a GIF file"), "{gif}");
-        let raw = told(b"II\x2a\0\x10\0\0\0CR\x02\0");
+        let raw = error_of(b"II\x2a\0\x10\0\0\0CR\x02\0");
         assert!(raw.ends_with("develop it to TIFF, JPEG or PNG"), "{raw}");
-        let video = told(b"\0\0\0\x20ftypisom\0\0\x02\0");
+        let video = error_of(b"\0\0\0\x20ftypisom\0\0\x02\0");
         assert!(video.contains("a video file"), "{video}");
-        let pointer = told(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
+        let pointer = error_of(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n");
         assert!(
             pointer.ends_with("fetch the image by git lfs pull"),
             "{pointer}"
         );
-        assert!(told(b"<!DOCTYPE html><html>").contains("a web page (HTML) file"));
-        assert!(told(b"Dear reader").ends_with("it is no PNG, JPEG, WebP, TIFF, BMP or PNM file"));
-        assert!(told(b"").ends_with("the file is empty"));
+        assert!(error_of(b"<!DOCTYPE html><html>").contains("a web page (HTML) file"));
+        assert!(
+            error_of(b"Dear reader").ends_with("it is no PNG, JPEG, WebP, TIFF, BMP or PNM file")
+        );
+        assert!(error_of(b"").ends_with("the file is empty"));
     }
 
     #[test]

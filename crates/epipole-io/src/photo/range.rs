@@ -46,7 +46,7 @@ impl PixelRange {
 }
 
 /// Selects the full or the robust range.
-fn chosen([least, most]: [f64; 2], [low, high]: [f64; 2]) -> [f64; 2] {
+fn select_range([least, most]: [f64; 2], [low, high]: [f64; 2]) -> [f64; 2] {
     match most - least > MAX_STRETCH * (high - low) && high > low {
         true => [low, high],
         false => [least, most],
@@ -74,7 +74,7 @@ pub(super) fn of_words(samples: impl Iterator<Item = u16>) -> Option<[f64; 2]> {
     }
     let up = |count| first_above(histogram.iter().copied().enumerate(), count);
     let down = |count| first_above(histogram.iter().copied().enumerate().rev(), count);
-    let [low, high] = chosen([up(0)?, down(0)?], [up(each)?, down(each)?]);
+    let [low, high] = select_range([up(0)?, down(0)?], [up(each)?, down(each)?]);
     (low < high).then_some([low, high])
 }
 
@@ -84,14 +84,18 @@ pub(super) fn of_floats(samples: impl Iterator<Item = f32>) -> Option<[f64; 2]> 
     let last = finite.len().checked_sub(1)?;
     let each = beyond(finite.len() as u64) as usize;
     let mut at = |index: usize| f64::from(*finite.select_nth_unstable_by(index, f32::total_cmp).1);
-    let [low, high] = chosen([at(0), at(last)], [at(each), at(last - each)]);
+    let [low, high] = select_range([at(0), at(last)], [at(each), at(last - each)]);
     (low < high).then_some([low, high])
 }
 
 /// Maps a range to 0 to 1, and NaN to 0.
 pub(super) fn to_unit(value: f64, [low, high]: [f64; 2]) -> f64 {
-    let share = (value - low) / (high - low);
-    if share > 0.0 { share.min(1.0) } else { 0.0 }
+    let fraction = (value - low) / (high - low);
+    if fraction > 0.0 {
+        fraction.min(1.0)
+    } else {
+        0.0
+    }
 }
 
 /// Maps a range to 8 bits.

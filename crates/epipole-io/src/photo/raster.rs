@@ -85,15 +85,15 @@ impl Raster {
     }
 
     /// Returns the number of samples per pixel without alpha.
-    fn num_seen(&self) -> usize {
+    fn num_color_samples(&self) -> usize {
         if self.channels < 3 { 1 } else { 3 }
     }
 
     /// Returns the samples without alpha.
-    fn seen<'a, T: Copy>(&self, samples: &'a [T]) -> impl Iterator<Item = T> + use<'a, T> {
-        let num_seen = self.num_seen();
+    fn colors<'a, T: Copy>(&self, samples: &'a [T]) -> impl Iterator<Item = T> + use<'a, T> {
+        let num_color_samples = self.num_color_samples();
         let pixels = samples.chunks_exact(self.channels);
-        pixels.flat_map(move |pixel| pixel[..num_seen].iter().copied())
+        pixels.flat_map(move |pixel| pixel[..num_color_samples].iter().copied())
     }
 
     /// Returns the values of black and white, if they differ from those of the format.
@@ -101,8 +101,8 @@ impl Raster {
         match (range, &self.samples) {
             (PixelRange::Between(low, high), _) => Some([low, high]),
             (PixelRange::Full, _) | (PixelRange::Auto, Samples::Bytes(_)) => None,
-            (PixelRange::Auto, Samples::Words(words)) => of_words(self.seen(words)),
-            (PixelRange::Auto, Samples::Floats(floats)) => of_floats(self.seen(floats)),
+            (PixelRange::Auto, Samples::Words(words)) => of_words(self.colors(words)),
+            (PixelRange::Auto, Samples::Floats(floats)) => of_floats(self.colors(floats)),
         }
     }
 
@@ -118,11 +118,11 @@ impl Raster {
         let unit = |value: f64| to_unit(value, range) as f32;
         let values = match &self.samples {
             Samples::Bytes(bytes) if mapped.is_none() => {
-                self.seen(bytes).map(|v| f32::from(v) / 255.0).collect()
+                self.colors(bytes).map(|v| f32::from(v) / 255.0).collect()
             }
-            Samples::Bytes(bytes) => self.seen(bytes).map(|v| unit(v.into())).collect(),
-            Samples::Words(words) => self.seen(words).map(|v| unit(v.into())).collect(),
-            Samples::Floats(floats) => self.seen(floats).map(|v| unit(v.into())).collect(),
+            Samples::Bytes(bytes) => self.colors(bytes).map(|v| unit(v.into())).collect(),
+            Samples::Words(words) => self.colors(words).map(|v| unit(v.into())).collect(),
+            Samples::Floats(floats) => self.colors(floats).map(|v| unit(v.into())).collect(),
         };
         gray(width, height, values)
     }

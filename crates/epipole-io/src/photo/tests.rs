@@ -93,7 +93,7 @@ fn a_gray_png_comes_back_exactly() {
 }
 
 #[test]
-fn sixteen_bits_are_kept() {
+fn sixteen_bits_are_preserved() {
     let deep = image::ImageBuffer::from_fn(5, 4, |u, v| Luma([(u * 1000 + v * 77) as u16]));
     let bytes = png(&DynamicImage::ImageLuma16(deep));
     let options = DecodeOptions::default().with_range(PixelRange::Full);
@@ -195,7 +195,7 @@ fn the_limit_is_checked_before_decoding_and_can_be_raised() {
 }
 
 #[test]
-fn a_photograph_from_the_data_folder() {
+fn a_photo_from_the_data_folder() {
     let Some(path) = shared::data("multiview/fountain_p11/0000.jpg") else {
         return;
     };
@@ -282,7 +282,7 @@ fn tiff_bmp_and_pnm_files_are_read() {
 }
 
 #[test]
-fn the_range_in_use_is_that_of_all_colors_and_is_told() {
+fn the_range_in_use_is_that_of_all_colors_and_is_reported() {
     use written_by_opencv as files;
     for (hex, most) in [
         (files::GRAY_16, 5400.0),
@@ -337,8 +337,8 @@ fn bits_planes_and_signs_of_tiff_files_are_read() {
         .write_tag(Tag::XResolution, Rational { n: 1, d: 1 })
         .unwrap();
     image.write_data(&[0; 6]).unwrap();
-    let told = decode_gray(file.get_ref(), &DecodeOptions::default()).unwrap_err();
-    assert!(told.to_string().contains("develop it to TIFF"), "{told}");
+    let error = decode_gray(file.get_ref(), &DecodeOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("develop it to TIFF"), "{error}");
     // One bit per pixel, black and white.
     let pbm = decode_rgb(b"P1 3 1 1 0 1", &DecodeOptions::default()).unwrap();
     assert_eq!(pbm.image.as_raw(), &[0, 0, 0, 255, 255, 255, 0, 0, 0]);

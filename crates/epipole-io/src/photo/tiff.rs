@@ -22,8 +22,8 @@ const MAX_TILE_BYTES: usize = 64 << 20;
 /// # Errors
 /// [`Error::BadImage`] for a damaged file.
 pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32)> {
-    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(said)?;
-    decoder.dimensions().map_err(said)
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(decoder_error)?;
+    decoder.dimensions().map_err(decoder_error)
 }
 
 /// Reads pixels and orientation.
@@ -32,13 +32,13 @@ pub(super) fn size(bytes: &[u8]) -> Result<(u32, u32)> {
 /// [`Error::BadImage`] for a damaged file, or with the kind of TIFF that is not supported;
 /// [`Error::TooManyPixels`] beyond the limit.
 pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation)> {
-    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(said)?;
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(decoder_error)?;
     if is_raw(&mut decoder) {
         return Err(unsupported("camera raw (TIFF)"));
     }
-    let (width, height) = decoder.dimensions().map_err(said)?;
+    let (width, height) = decoder.dimensions().map_err(decoder_error)?;
     check_size(width, height, max_pixels)?;
-    let color = decoder.colortype().map_err(said)?;
+    let color = decoder.colortype().map_err(decoder_error)?;
     let (channels, depth) = match color {
         ColorType::Gray(depth) => (1, depth),
         ColorType::GrayA(depth)
@@ -60,7 +60,7 @@ pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation
     if !packs && !matches!(depth, 8 | 16 | 32 | 64) {
         return Err(unsupported_kind(&format!("{depth} bits a sample")));
     }
-    let layout = decoder.image_buffer_layout().map_err(said)?;
+    let layout = decoder.image_buffer_layout().map_err(decoder_error)?;
     let mut limits = Limits::default();
     // The size of the image was checked above.
     limits.decoding_buffer_size = layout.complete_len;
@@ -70,19 +70,21 @@ pub(super) fn read(bytes: &[u8], max_pixels: u64) -> Result<(Raster, Orientation
     let orientation = decoder.find_tag_unsigned::<u8>(Tag::Orientation);
     let orientation = (orientation.ok().flatten()).and_then(Orientation::from_exif);
     let mut read = DecodingResult::U8(Vec::new());
-    let layout = decoder.read_image_to_buffer(&mut read).map_err(said)?;
+    let layout = decoder
+        .read_image_to_buffer(&mut read)
+        .map_err(decoder_error)?;
     if packs {
         let DecodingResult::U8(rows) = &read else {
             return Err(unsupported_kind(&format!("{depth} bits a sample")));
         };
-        read = DecodingResult::U8(unpacked(rows, width as usize, depth));
+        read = DecodingResult::U8(unpack_bits(rows, width as usize, depth));
     }
     let (mut samples, full) = samples(read);
     if layout.planes > 1 {
         samples = match samples {
-            Samples::Bytes(planes) => Samples::Bytes(interleaved(&planes, channels)),
-            Samples::Words(planes) => Samples::Words(interleaved(&planes, channels)),
-            Samples::Floats(planes) => Samples::Floats(interleaved(&planes, channels)),
+            Samples::Bytes(planes) => Samples::Bytes(interleave(&planes, channels)),
+            Samples::Words(planes) => Samples::Words(interleave(&planes, channels)),
+            Samples::Floats(planes) => Samples::Floats(interleave(&planes, channels)),
         };
     }
     let raster = Raster {
@@ -107,7 +109,7 @@ fn is_raw(decoder: &mut Decoder<Cursor<&[u8]>>) -> bool {
 }
 
 /// Describes the error of the decoder.
-fn said(error: TiffError) -> Error {
+fn decoder_error(error: TiffError) -> Error {
     match error {
         TiffError::UnsupportedError(what) => unsupported_kind(&what.to_string()),
         TiffError::LimitsExceeded => bad("its TIFF data need too much memory"),
@@ -122,7 +124,7 @@ fn unsupported_kind(what: &str) -> Error {
 }
 
 /// Unpacks samples of 1, 2 or 4 bits, in rows of whole bytes, to bytes from 0 to 255.
-fn unpacked(rows: &[u8], width: usize, depth: u8) -> Vec<u8> {
+fn unpack_bits(rows: &[u8], width: usize, depth: u8) -> Vec<u8> {
     let depth = usize::from(depth);
     let most = (1_u8 << depth) - 1;
     let sample = |row: &[u8], u: usize| {
@@ -135,7 +137,7 @@ fn unpacked(rows: &[u8], width: usize, depth: u8) -> Vec<u8> {
 }
 
 /// Converts consecutive planes to samples pixel by pixel.
-fn interleaved<T: Copy>(planes: &[T], channels: usize) -> Vec<T> {
+fn interleave<T: Copy>(planes: &[T], channels: usize) -> Vec<T> {
     let length = planes.len() / channels;
     let pixel = |at: usize| (0..channels).map(move |plane| planes[plane * length + at]);
     (0..length).flat_map(pixel).collect()

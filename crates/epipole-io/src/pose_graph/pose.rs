@@ -33,7 +33,7 @@ pub(super) trait Written<const D: usize>: Sized {
         (self, information)
     }
     /// Converts the sighting of a sensor at an offset to the frame of the vertex, exactly.
-    fn seen_from_vertex(
+    fn relative_to_vertex(
         self,
         information: SMatrix<f64, D, D>,
         _vertex_from_sensor: &Isometry3<f64>,
@@ -124,19 +124,19 @@ impl Written<6> for Isometry3<f64> {
         let symmetric = (moved + moved.transpose()) * 0.5;
         (self * vertex_from_sensor.inverse(), symmetric)
     }
-    fn seen_from_vertex(
+    fn relative_to_vertex(
         self,
         information: SMatrix<f64, 6, 6>,
         vertex_from_sensor: &Isometry3<f64>,
     ) -> (Self, SMatrix<f64, 6, 6>) {
-        let turn = *vertex_from_sensor.rotation.to_rotation_matrix().matrix();
+        let rotation = *vertex_from_sensor.rotation.to_rotation_matrix().matrix();
         let position = vertex_from_sensor * Point3::from(self.translation.vector);
-        let turned = turn * information.fixed_view::<3, 3>(0, 0) * turn.transpose();
+        let rotated = rotation * information.fixed_view::<3, 3>(0, 0) * rotation.transpose();
         let mut of_vertex = SMatrix::<f64, 6, 6>::zeros();
-        let symmetric = (turned + turned.transpose()) * 0.5;
+        let symmetric = (rotated + rotated.transpose()) * 0.5;
         of_vertex.fixed_view_mut::<3, 3>(0, 0).copy_from(&symmetric);
-        let seen = Isometry3::from_parts(position.coords.into(), UnitQuaternion::identity());
-        (seen, of_vertex)
+        let pose = Isometry3::from_parts(position.coords.into(), UnitQuaternion::identity());
+        (pose, of_vertex)
     }
 }
 

@@ -172,7 +172,7 @@ impl<T: Written<D>, const D: usize> Reader<T, D> {
             if matches!(kind, Kind::Edge | Kind::Sighting) {
                 let is_sighting = kind == Kind::Sighting;
                 let (from_from_to, information) = match T::HAS_OFFSET && is_sighting {
-                    true => pose.seen_from_vertex(information, offset(line, ids[2])?),
+                    true => pose.relative_to_vertex(information, offset(line, ids[2])?),
                     false => (pose, information),
                 };
                 check_finite(line, &from_from_to, &information)?;

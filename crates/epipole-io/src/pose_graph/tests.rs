@@ -34,8 +34,8 @@ fn quaternions_may_be_as_long_as_numbers_are() {
     let PoseGraph::Se3(graph) = read_g2o(text).unwrap().graph else {
         panic!("a spatial graph");
     };
-    let turn = graph.vertices[0].rotation;
-    assert!((turn.angle() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    let rotation = graph.vertices[0].rotation;
+    assert!((rotation.angle() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
     let text = write_g2o(&PoseGraph::Se3(graph));
     assert!(read_g2o(&text).is_ok(), "{text}");
 }
@@ -125,10 +125,10 @@ fn malformed_texts_name_the_line() {
         match read_g2o(bad) {
             Err(Error::Malformed {
                 line: got,
-                message: said,
+                message: text,
             }) => {
                 assert_eq!(got, Some(line), "{bad:?}");
-                assert!(said.contains(why), "{said}");
+                assert!(text.contains(why), "{text}");
             }
             other => panic!("{bad:?} gave {other:?}"),
         }
@@ -202,8 +202,8 @@ fn positions_and_poses_hold_a_graph_in_the_plane() {
     let mut graph = read_g2o(text).unwrap().graph;
     assert_eq!((graph.size(), graph.num_priors()), ((2, 1), 2));
     // Of the edge 1, of the position 4 · 50, of the pose 9 · (5² + 6² + (π/2)²).
-    let turn = core::f64::consts::FRAC_PI_2;
-    let chi2 = 1.0 + 200.0 + 9.0 * (61.0 + turn * turn);
+    let quarter_rad = core::f64::consts::FRAC_PI_2;
+    let chi2 = 1.0 + 200.0 + 9.0 * (61.0 + quarter_rad * quarter_rad);
     assert!((graph.chi2() - chi2).abs() < 1e-9, "{}", graph.chi2());
     graph
         .optimize(&LmOptions::default(), RobustLoss::Trivial, &mut ())
@@ -258,11 +258,18 @@ fn sightings_of_a_sensor_are_those_of_its_pose() {
     let text = "PARAMS_SE3OFFSET 3 0.5 -1 2 0.5 0.5 0.5 0.5\nVERTEX_SE3:QUAT 0 1 2 3 0 0 0.6 0.8\n\
                 VERTEX_TRACKXYZ 1 4 -5 6\nEDGE_SE3_TRACKXYZ 0 1 3 0.1 0.2 0.3 2 0.5 0.25 3 1 5\n";
     let graph = read_g2o(text).unwrap().graph;
-    let turn = |x, y, z, w| UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
-    let pose = Isometry3::from_parts(Translation3::new(1.0, 2.0, 3.0), turn(0.0, 0.0, 0.6, 0.8));
-    let offset = Isometry3::from_parts(Translation3::new(0.5, -1.0, 2.0), turn(0.5, 0.5, 0.5, 0.5));
-    let seen = (pose * offset).inverse_transform_point(&nalgebra::Point3::new(4.0, -5.0, 6.0));
-    let error = seen.coords - Vector3::new(0.1, 0.2, 0.3);
+    let quaternion =
+        |x, y, z, w| UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(w, x, y, z));
+    let pose = Isometry3::from_parts(
+        Translation3::new(1.0, 2.0, 3.0),
+        quaternion(0.0, 0.0, 0.6, 0.8),
+    );
+    let offset = Isometry3::from_parts(
+        Translation3::new(0.5, -1.0, 2.0),
+        quaternion(0.5, 0.5, 0.5, 0.5),
+    );
+    let in_sensor = (pose * offset).inverse_transform_point(&nalgebra::Point3::new(4.0, -5.0, 6.0));
+    let error = in_sensor.coords - Vector3::new(0.1, 0.2, 0.3);
     let information = nalgebra::Matrix3::new(2.0, 0.5, 0.25, 0.5, 3.0, 1.0, 0.25, 1.0, 5.0);
     let chi2 = error.dot(&(information * error));
     assert!(

@@ -20,15 +20,15 @@ pub(super) fn lines(text: &str, columns: usize) -> Option<String> {
         };
         let mut lines = vec![names.iter().map(|name| word(name)).collect()];
         lines.extend(rows.iter().map(named).collect::<Option<Vec<_>>>()?);
-        return Some(joined(&lines));
+        return Some(join_fields(&lines));
     }
     let lines: Vec<Vec<String>> = rows.iter().map(flatten).collect::<Option<_>>()?;
     // One line of text, a row whose parts are in brackets.
     let is_one_row = lines.iter().map(Vec::len).sum::<usize>() == columns;
-    (!is_one_row).then(|| joined(&lines))
+    (!is_one_row).then(|| join_fields(&lines))
 }
 
-fn joined(lines: &[Vec<String>]) -> String {
+fn join_fields(lines: &[Vec<String>]) -> String {
     let lines: Vec<String> = lines.iter().map(|fields| fields.join(";")).collect();
     lines.join("\n")
 }

@@ -41,12 +41,14 @@ impl Columns {
         let names = words(&bare);
         let find = |is_it: &dyn Fn(&str) -> bool| names.iter().position(|name| is_it(name));
         let time = find(&|name| name == "t" || name.contains("time") || name.contains("stamp"))?;
-        let axis = |name: &str, axis: char, is_turn: bool| {
+        let axis = |name: &str, axis: char, is_rotation: bool| {
             let stem = name.strip_suffix(axis)?;
-            (stem.split(['_', '.', '/']).any(is_of_quaternion) == is_turn && is_of_pose(stem))
+            (stem.split(['_', '.', '/']).any(is_of_quaternion) == is_rotation && is_of_pose(stem))
                 .then_some(())
         };
-        let of = |letter: char, is_turn: bool| find(&|name| axis(name, letter, is_turn).is_some());
+        let of = |letter: char, is_rotation: bool| {
+            find(&|name| axis(name, letter, is_rotation).is_some())
+        };
         Some(Self {
             time,
             position: [of('x', false)?, of('y', false)?, of('z', false)?],
@@ -63,16 +65,16 @@ impl Columns {
 /// Removes the parts of a line in brackets.
 fn without_units(line: &str) -> String {
     let mut depth = 0_usize;
-    let mut kept = String::new();
+    let mut selected = String::new();
     for c in line.chars() {
         match c {
             '[' | '(' => depth += 1,
             ']' | ')' => depth = depth.saturating_sub(1),
-            _ if depth == 0 => kept.push(c),
+            _ if depth == 0 => selected.push(c),
             _ => {}
         }
     }
-    kept
+    selected
 }
 
 /// Returns whether a part of a name means a quaternion or an orientation.

@@ -55,8 +55,9 @@ fn decimal_commas(text: &str) -> Result<()> {
     for (line, content) in lines(text) {
         let fields = content.split(|c: char| c.is_whitespace() || c == ';');
         let is_comma = |word: &&str| {
-            word.split_once(',').is_some_and(|(whole, share)| {
-                whole.trim_start_matches('-').parse::<u64>().is_ok() && share.parse::<u64>().is_ok()
+            word.split_once(',').is_some_and(|(whole, digits)| {
+                whole.trim_start_matches('-').parse::<u64>().is_ok()
+                    && digits.parse::<u64>().is_ok()
             })
         };
         if fields.clone().filter(|field| !field.is_empty()).count() >= 8
@@ -166,8 +167,8 @@ mod tests {
     fn path() -> Trajectory {
         let pose = |i: i64| {
             let i = i as f64;
-            let turn = Vector3::new(0.1 * i, -0.2, 0.05 * i * i);
-            RigidTransform::new(Vector3::new(0.1 * i, 1.0 / 3.0, -1e-7 * i), turn)
+            let rotation_vector = Vector3::new(0.1 * i, -0.2, 0.05 * i * i);
+            RigidTransform::new(Vector3::new(0.1 * i, 1.0 / 3.0, -1e-7 * i), rotation_vector)
         };
         Trajectory {
             stamps_ns: Some(

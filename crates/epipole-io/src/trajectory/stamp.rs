@@ -27,8 +27,8 @@ pub(super) fn from_seconds(line: usize, word: &str) -> Result<i64> {
 
 /// Reads whole nanoseconds, which may have a point: `1403636579763555584.000000`.
 pub(super) fn from_nanoseconds(line: usize, word: &str) -> Result<i64> {
-    let (whole, share) = word.split_once('.').unwrap_or((word, ""));
-    let is_whole = share.bytes().all(|b| b == b'0');
+    let (whole, digits) = word.split_once('.').unwrap_or((word, ""));
+    let is_whole = digits.bytes().all(|b| b == b'0');
     if let (true, Ok(stamp)) = (is_whole, whole.parse()) {
         return Ok(stamp);
     }

@@ -43,8 +43,8 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
                 k1: if is_bent { k1 } else { 0.0 },
                 ..Distortion::NONE
             };
-            let camera = |side: u32, told: &Option<(f64, f64, f64, f64)>| {
-                let (f, x, y, z) = (*told)?;
+            let camera = |side: u32, pose: &Option<(f64, f64, f64, f64)>| {
+                let (f, x, y, z) = (*pose)?;
                 Some(PosedCamera {
                     camera: Camera {
                         width: side,
@@ -57,7 +57,7 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
             };
             let cameras = list
                 .iter()
-                .map(|(_, side, _, told)| camera(*side, told))
+                .map(|(_, side, _, pose)| camera(*side, pose))
                 .collect();
             let track = |list: &[(prop::sample::Index, prop::sample::Index)]| {
                 let element = |(image, keypoint): &(prop::sample::Index, prop::sample::Index)| {
@@ -71,10 +71,10 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
             };
             let points = points
                 .iter()
-                .map(|(position, color, seen)| ScenePoint {
+                .map(|(position, color, track_elements)| ScenePoint {
                     position: Point3::from(*position),
                     color: *color,
-                    track: track(seen),
+                    track: track(track_elements),
                     error_px: 0.5,
                 })
                 .collect();
@@ -89,12 +89,12 @@ fn any_reconstruction() -> impl Strategy<Value = (Reconstruction, Vec<SfmImage>)
 
 /// Returns the words of the lines without comments; an empty line has no keypoints.
 fn lines(text: &str) -> Vec<Vec<&str>> {
-    let is_told = |line: &&str| !line.starts_with('#');
+    let is_data = |line: &&str| !line.starts_with('#');
     // As in COLMAP, a line ends at the line feed.
     let whole = text.strip_suffix('\n').unwrap_or(text);
     whole
         .split('\n')
-        .filter(is_told)
+        .filter(is_data)
         .map(|line| line.split(' ').collect())
         .collect()
 }

@@ -18,7 +18,7 @@ pub(super) struct Component {
     /// Nonzero coefficients of each block of a progressive file, allocated when needed.
     pub(super) known: Vec<u64>,
     /// Whether a scan contained it.
-    pub(super) seen: bool,
+    pub(super) has_scan: bool,
 }
 
 impl Frame {
@@ -33,7 +33,7 @@ impl Frame {
             wide: u32::from(part[1] >> 4),
             high: u32::from(part[1] & 15),
             known: Vec::new(),
-            seen: false,
+            has_scan: false,
         }))
         .collect::<Vec<_>>();
         let fits = |size: u32| (1..=4).contains(&size);
@@ -62,6 +62,6 @@ impl Frame {
 
     /// Returns whether every component was in a scan.
     pub(super) fn is_complete(&self) -> bool {
-        self.components.iter().all(|c| c.seen)
+        self.components.iter().all(|c| c.has_scan)
     }
 }

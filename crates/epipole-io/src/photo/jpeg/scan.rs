@@ -84,10 +84,10 @@ impl Scan {
         let mut parts = Vec::with_capacity(self.parts.len());
         for part in &self.parts {
             let component = &mut frame.components[part.component];
-            component.seen = true;
-            let alone = self.parts.len() == 1;
+            component.has_scan = true;
+            let is_single = self.parts.len() == 1;
             let blocks = Blocks {
-                count: if alone {
+                count: if is_single {
                     1
                 } else {
                     component.wide * component.high

@@ -83,11 +83,11 @@ fn data_that_end_early_are_found_wherever_they_end() {
         let whole = file(hex);
         let mut before = 0;
         for at in data_at(&whole)..whole.len() - 2 {
-            let told = check_all(&[&whole[..at], &END].concat()).unwrap_err();
-            let rows = told.strip_prefix("the JPEG file is damaged: its data end after ");
+            let error = check_all(&[&whole[..at], &END].concat()).unwrap_err();
+            let rows = error.strip_prefix("the JPEG file is damaged: its data end after ");
             let row = rows.and_then(|rest| rest.strip_suffix(" of 37 rows"));
-            let row: u32 = row.unwrap_or_else(|| panic!("{told}")).parse().unwrap();
-            assert!(row >= before, "{told}");
+            let row: u32 = row.unwrap_or_else(|| panic!("{error}")).parse().unwrap();
+            assert!(row >= before, "{error}");
             before = row;
             // And without the marker.
             assert!(check_all(&whole[..at]).is_err());
@@ -117,8 +117,8 @@ fn what_is_missing_in_the_middle_is_found() {
         }
         // In an image this small, many scans of a progressive file are shorter than the part cut
         // out.
-        let share = if hex == PROGRESSIVE { 5 } else { 9 };
-        assert!(found * 10 > tried * share, "{found} of {tried}");
+        let max_ratio = if hex == PROGRESSIVE { 5 } else { 9 };
+        assert!(found * 10 > tried * max_ratio, "{found} of {tried}");
     }
 }
 
@@ -131,10 +131,10 @@ fn more_blocks_than_the_picture_has_are_found() {
         .unwrap();
     assert_eq!(whole[frame + 6], 37);
     whole[frame + 6] = 30;
-    let told = check_all(&whole).unwrap_err();
+    let error = check_all(&whole).unwrap_err();
     assert!(
-        told.ends_with("its data are for more than 30 rows"),
-        "{told}"
+        error.ends_with("its data are for more than 30 rows"),
+        "{error}"
     );
 }
 
@@ -146,9 +146,9 @@ fn bytes_that_changed_are_found_where_they_make_no_sense() {
         for mask in [0x01, 0x10, 0x55, 0xFF] {
             let mut changed = whole.clone();
             changed[at] ^= mask;
-            if let Err(told) = check_all(&changed) {
+            if let Err(error) = check_all(&changed) {
                 found += 1;
-                senseless += u32::from(told.contains("make no sense after "));
+                senseless += u32::from(error.contains("make no sense after "));
             }
             tried += 1;
         }
@@ -167,7 +167,7 @@ fn what_does_no_harm_is_no_damage() {
         let picture = decode_rgb(&whole, &options).unwrap().image;
         let body = &whole[..whole.len() - 2];
         let junk: Vec<u8> = (0..18).map(|k| k * 11 + 3).collect();
-        let mut odd = vec![
+        let mut unusual = vec![
             // Extra data after the image: another image, as some cameras write, or anything.
             [&whole[..], &whole].concat(),
             [&whole[..], &junk].concat(),
@@ -179,11 +179,11 @@ fn what_does_no_harm_is_no_damage() {
             [&whole[..20], &[0; 7], &whole[20..]].concat(),
         ];
         if hex != PROGRESSIVE {
-            odd.push(body.to_vec());
-            odd.push([body, &[0xFF]].concat());
-            odd.push([body, &[0xFF, 0xE1, 0x10, 0x00, 0x12]].concat());
+            unusual.push(body.to_vec());
+            unusual.push([body, &[0xFF]].concat());
+            unusual.push([body, &[0xFF, 0xE1, 0x10, 0x00, 0x12]].concat());
         }
-        for (k, file) in odd.iter().enumerate() {
+        for (k, file) in unusual.iter().enumerate() {
             let decoded = decode_rgb(file, &options);
             assert!(decoded.is_ok_and(|d| d.image == picture), "{k}");
         }
