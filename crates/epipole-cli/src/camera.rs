@@ -19,7 +19,7 @@ pub(crate) struct CameraArguments {
 
 impl CameraArguments {
     /// Returns whether any is given.
-    pub(crate) fn is_given(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.k.is_some() || self.focal_px.is_some()
     }
 
@@ -27,7 +27,7 @@ impl CameraArguments {
     ///
     /// # Errors
     /// As [`Intrinsics::centered`].
-    fn given(&self, photo: &Photo) -> Result<Option<Intrinsics>, Failure> {
+    fn explicit(&self, photo: &Photo) -> Result<Option<Intrinsics>, Failure> {
         match (self.k, self.focal_px) {
             (Some(k), _) => Ok(Some(photo.reduced_k(&k)?)),
             (None, Some(focal_px)) => of_focal(focal_px, photo).map(Some),
@@ -41,7 +41,7 @@ impl CameraArguments {
     /// # Errors
     /// As [`Intrinsics::centered`].
     pub(crate) fn or_guess(&self, photo: &Photo) -> Result<(Intrinsics, Option<Guess>), Failure> {
-        if let Some(k) = self.given(photo)?.or(photo.k) {
+        if let Some(k) = self.explicit(photo)?.or(photo.k) {
             return Ok((k, None));
         }
         let longer = f64::from(photo.color.width().max(photo.color.height()));
@@ -66,8 +66,8 @@ pub(crate) struct PairArguments {
 
 impl PairArguments {
     /// Returns whether any is given.
-    pub(crate) fn is_given(&self) -> bool {
-        self.camera.is_given()
+    pub(crate) fn is_set(&self) -> bool {
+        self.camera.is_set()
     }
 
     /// Returns whether a focal length is given, without K. Returns whether any is given.
@@ -80,7 +80,7 @@ impl PairArguments {
     /// # Errors
     /// A failure that names the missing option.
     pub(crate) fn check(&self) -> Result<(), Failure> {
-        if self.k2.is_some() && !self.is_given() {
+        if self.k2.is_some() && !self.is_set() {
             return Err(Failure::usage(
                 "--k2 is for the second camera: the first needs --k or --focal-px, too",
             ));
@@ -94,20 +94,20 @@ impl PairArguments {
     /// # Errors
     /// If one principal point is given for photographs of different sizes; as
     /// [`Intrinsics::centered`].
-    pub(crate) fn given(&self, photos: &[Photo; 2]) -> Result<Option<[Intrinsics; 2]>, Failure> {
+    pub(crate) fn explicit(&self, photos: &[Photo; 2]) -> Result<Option<[Intrinsics; 2]>, Failure> {
         let sizes = photos.each_ref().map(|photo| photo.full_size);
         if self.camera.k.is_some() && self.k2.is_none() && sizes[0] != sizes[1] {
             let message = format!(
-                "--k cannot be right for both photographs, as one is {} × {} and the other {} × {}: \
+                "--k cannot be right for both images, as one is {} × {} and the other {} × {}: \
                  give --k2 for the second",
                 sizes[0].0, sizes[0].1, sizes[1].0, sizes[1].1
             );
             return Err(Failure::new("size-mismatch", message));
         }
-        let first = self.camera.given(&photos[0])?;
+        let first = self.camera.explicit(&photos[0])?;
         let second = match self.k2 {
             Some(k2) => Some(photos[1].reduced_k(&k2)?),
-            None => self.camera.given(&photos[1])?,
+            None => self.camera.explicit(&photos[1])?,
         };
         Ok(first.zip(second).map(|(k1, k2)| [k1, k2]))
     }
@@ -115,13 +115,13 @@ impl PairArguments {
     /// Returns the given intrinsics, or else a guess for each photo with a warning.
     ///
     /// # Errors
-    /// As [`PairArguments::given`].
+    /// As [`PairArguments::explicit`].
     pub(crate) fn or_guess(
         &self,
         photos: &[Photo; 2],
     ) -> Result<([Intrinsics; 2], Option<String>), Failure> {
-        if let Some(given) = self.given(photos)? {
-            return Ok((given, None));
+        if let Some(explicit) = self.explicit(photos)? {
+            return Ok((explicit, None));
         }
         let (k1, guess1) = self.camera.or_guess(&photos[0])?;
         let (k2, guess2) = self.camera.or_guess(&photos[1])?;
@@ -158,10 +158,10 @@ pub(crate) fn sentence(guesses: &[Guess]) -> Option<String> {
         (least, most) => format!("{least} to {most}"),
     };
     let from = match guesses.len() {
-        count if num_exif == count => "from the photograph's EXIF data".to_owned(),
+        count if num_exif == count => "from the image's EXIF data".to_owned(),
         _ if num_exif == 0 => "1.2 times the longer side".to_owned(),
         count => format!(
-            "from EXIF data for {num_exif} of {count} photographs, for the others 1.2 times the \
+            "from EXIF data for {num_exif} of {count} images, for the others 1.2 times the \
              longer side"
         ),
     };
@@ -232,23 +232,23 @@ mod tests {
     }
 
     #[test]
-    fn each_photograph_has_its_own_middle_and_its_own_guess() {
+    fn each_image_has_its_own_center_and_its_own_guess() {
         let photos = [photo(640, 480, Some(500.0)), photo(480, 640, Some(700.0))];
-        let given = arguments(Some(600.0)).given(&photos).unwrap().unwrap();
+        let explicit = arguments(Some(600.0)).explicit(&photos).unwrap().unwrap();
         let middle = |width, height, f| Intrinsics::centered(f, width, height).unwrap();
-        assert_eq!(given, [middle(640, 480, 600.0), middle(480, 640, 600.0)]);
-        let (guessed, told) = arguments(None).or_guess(&photos).unwrap();
+        assert_eq!(explicit, [middle(640, 480, 600.0), middle(480, 640, 600.0)]);
+        let (guessed, warning) = arguments(None).or_guess(&photos).unwrap();
         assert_eq!(guessed, [middle(640, 480, 500.0), middle(480, 640, 700.0)]);
-        let told = told.unwrap();
+        let warning = warning.unwrap();
         assert!(
-            told.contains("500 to 700 px, from the photograph's EXIF data"),
-            "{told}"
+            warning.contains("500 to 700 px, from the image's EXIF data"),
+            "{warning}"
         );
         let photos = [photo(640, 480, Some(500.0)), photo(480, 640, None)];
-        let (guessed, told) = arguments(None).or_guess(&photos).unwrap();
+        let (guessed, warning) = arguments(None).or_guess(&photos).unwrap();
         assert_eq!(guessed[1], middle(480, 640, 768.0));
-        let told = told.unwrap();
-        assert!(told.contains("for 1 of 2 photographs"), "{told}");
+        let warning = warning.unwrap();
+        assert!(warning.contains("for 1 of 2 images"), "{warning}");
     }
 
     #[test]
@@ -257,9 +257,9 @@ mod tests {
         let k = Intrinsics::centered(600.0, 640, 480).unwrap();
         let mut both = arguments(None);
         both.camera.k = Some(k);
-        let refused = both.given(&photos).unwrap_err();
+        let refused = both.explicit(&photos).unwrap_err();
         assert_eq!(refused.kind, "size-mismatch");
         both.k2 = Some(Intrinsics::centered(600.0, 480, 640).unwrap());
-        assert_eq!(both.given(&photos).unwrap(), Some([k, both.k2.unwrap()]));
+        assert_eq!(both.explicit(&photos).unwrap(), Some([k, both.k2.unwrap()]));
     }
 }

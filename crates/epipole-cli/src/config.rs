@@ -33,18 +33,18 @@ pub(crate) fn with_file(
     let Ok(matches) = partial_matches(command, &arguments) else {
         return Ok(arguments);
     };
-    let Some((name, given)) = matches.subcommand() else {
+    let Some((name, submatches)) = matches.subcommand() else {
         return Ok(arguments);
     };
     let (Some(path), Some(subcommand)) = (
-        given.get_one::<PathBuf>("config"),
+        submatches.get_one::<PathBuf>("config"),
         command.find_subcommand(name),
     ) else {
         return Ok(arguments);
     };
     let about = |failure: Failure| failure.about(path);
     let table = table(path)?;
-    let added = options(command, subcommand, given, &table).map_err(about)?;
+    let added = options(command, subcommand, submatches, &table).map_err(about)?;
     check(command, name, &added).map_err(about)?;
     let end = arguments.iter().position(|argument| argument == "--");
     let end = end.unwrap_or(arguments.len());
@@ -69,7 +69,7 @@ pub(crate) fn partial_matches(
 /// # Errors
 /// A value that is not Unicode.
 pub(crate) fn dump(command: &Command, matches: &ArgMatches) -> Result<String, Failure> {
-    let Some((name, given)) = matches.subcommand() else {
+    let Some((name, submatches)) = matches.subcommand() else {
         return Ok(String::new());
     };
     let mut text = format!("# For epipole {name} --config FILE\n");
@@ -87,7 +87,7 @@ pub(crate) fn dump(command: &Command, matches: &ArgMatches) -> Result<String, Fa
             let sentence = help.split(". ").next().unwrap_or_default();
             let key = argument.get_long().unwrap_or_default();
             let _ = writeln!(text, "# {}", sentence.replace('\n', " "));
-            let _ = match value(argument, given)? {
+            let _ = match value(argument, submatches)? {
                 Some(value) => writeln!(text, "{key} = {value}"),
                 None => writeln!(text, "# {key} ="),
             };
@@ -160,7 +160,7 @@ fn table(path: &Path) -> Result<Table, Failure> {
 fn options(
     command: &Command,
     subcommand: &Command,
-    given: &ArgMatches,
+    matches: &ArgMatches,
     table: &Table,
 ) -> Result<Vec<OsString>, Failure> {
     let name = subcommand.get_name();
@@ -174,13 +174,13 @@ fn options(
             }
             Value::Table(own) if key == name => {
                 for (key, value) in own {
-                    added.extend(option(subcommand, given, key, value)?);
+                    added.extend(option(subcommand, matches, key, value)?);
                 }
             }
             Value::Table(_) => {}
             value => {
                 if table.get(name).and_then(|own| own.get(key)).is_none() {
-                    added.extend(option(subcommand, given, key, value)?);
+                    added.extend(option(subcommand, matches, key, value)?);
                 }
             }
         }
@@ -191,7 +191,7 @@ fn options(
 /// Converts a key and its value to arguments.
 fn option(
     subcommand: &Command,
-    given: &ArgMatches,
+    submatches: &ArgMatches,
     key: &str,
     value: &Value,
 ) -> Result<Vec<OsString>, Failure> {
@@ -202,13 +202,14 @@ fn option(
             "{key}: epipole {name} has no such option; epipole {name} --dump-config prints all"
         ))
     })?;
-    let is_given =
-        |one: &&Arg| given.value_source(one.get_id().as_str()) == Some(ValueSource::CommandLine);
+    let is_set = |one: &&Arg| {
+        submatches.value_source(one.get_id().as_str()) == Some(ValueSource::CommandLine)
+    };
     let excludes = |one: &Arg, other: &Arg| {
         let mut excluded = subcommand.get_arg_conflicts_with(one).into_iter();
         excluded.any(|excluded| excluded.get_id() == other.get_id())
     };
-    let mut on_command_line = settable(subcommand).filter(is_given);
+    let mut on_command_line = settable(subcommand).filter(is_set);
     let is_out = |one: &Arg| {
         one.get_id() == argument.get_id() || excludes(one, argument) || excludes(argument, one)
     };
@@ -243,9 +244,9 @@ fn option(
 
 /// Checks the values of the file separately, so that an error names the file.
 fn check(command: &Command, name: &str, added: &[OsString]) -> Result<(), Failure> {
-    let mut alone: Vec<OsString> = vec!["epipole".into(), name.into()];
-    alone.extend_from_slice(added);
-    match command.clone().try_get_matches_from(alone) {
+    let mut command_only: Vec<OsString> = vec!["epipole".into(), name.into()];
+    command_only.extend_from_slice(added);
+    match command.clone().try_get_matches_from(command_only) {
         Err(error) if error.kind() != ErrorKind::MissingRequiredArgument => {
             let text = error.to_string();
             let line = text.lines().next().unwrap_or_default();

@@ -70,8 +70,7 @@ impl Content {
             return Err(Failure::new("malformed", "the file is empty").about(path));
         }
         if sensor_size(bytes).is_ok() {
-            let message =
-                "this is a photograph, where a model, cameras or a trajectory is expected";
+            let message = "this is an image, where a model, cameras or a trajectory is expected";
             return Err(Failure::new("malformed", message).about(path));
         }
         if let Err(image @ Error::BadImage { .. }) = sensor_size(bytes)

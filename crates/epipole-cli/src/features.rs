@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_said_is_the_default_of_the_core() {
+    fn omitted_options_have_the_defaults_of_the_core() {
         let all = parsed(&[]);
         assert_eq!(all.features.options(), FeatureOptions::default());
         assert_eq!(all.matching.options(), MatchOptions::default());
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn mutual_can_be_said_and_denied() {
+    fn mutual_can_be_set_and_unset() {
         assert!(parsed(&["--mutual"]).matching.mutual);
         assert!(!parsed(&["--mutual=false"]).matching.mutual);
     }

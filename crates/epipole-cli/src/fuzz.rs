@@ -15,7 +15,7 @@ use std::path::Path;
 const POSITIONS: &str = "# name\na.jpg 1 2 3\nb c.jpg -1.5 2e2 3 0.5\n17 1 2 3\n";
 
 /// Returns whether the message of a failure names the file.
-fn is_told(failure: &Failure) -> bool {
+fn has_message(failure: &Failure) -> bool {
     let text = failure.to_string();
     text.contains("file") && text.len() > "file: ".len()
 }
@@ -44,7 +44,7 @@ proptest! {
                     prop_assert!(line.sigma_m > 0.0 && line.sigma_m.is_finite());
                 }
             }
-            Err(failure) => prop_assert!(is_told(&failure), "{}", failure),
+            Err(failure) => prop_assert!(has_message(&failure), "{}", failure),
         }
     }
 }

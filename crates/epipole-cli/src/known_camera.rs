@@ -21,17 +21,17 @@ const MOST_UNSEEN: f64 = 0.75;
 ///
 /// # Errors
 /// If that part is more than three quarters.
-pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), Failure> {
-    let share = lens::unseen_ratio(camera);
+pub(crate) fn check_visible_part(camera: &Camera, context: &Context) -> Result<(), Failure> {
+    let ratio = lens::unseen_ratio(camera);
     let sentence = format!(
         "the lens model of --camera has no ray for {:.0}% of the image, where it folds",
-        100.0 * share
+        100.0 * ratio
     );
-    if share > MOST_UNSEEN {
+    if ratio > MOST_UNSEEN {
         let advice = "calibrate again with boards up to the edges, or with another --model";
         return Err(Failure::new("degenerate", format!("{sentence}; {advice}")));
     }
-    if share > MUCH_UNSEEN {
+    if ratio > MUCH_UNSEEN {
         context.warn(&format!("{sentence}; pixels there are left out"));
     }
     Ok(())
@@ -40,7 +40,7 @@ pub(crate) fn tell_of_unseen(camera: &Camera, context: &Context) -> Result<(), F
 /// Warns of photos that the calibrated camera was not used for.
 ///
 /// * `others`: their names, and width and height as the sensor gave them
-pub(crate) fn tell_of_others(
+pub(crate) fn warn_of_others(
     camera: &Camera,
     others: &[(String, (u32, u32))],
     num_photos: usize,
@@ -73,7 +73,7 @@ pub(crate) struct CameraFile {
 }
 
 impl CameraFile {
-    pub(crate) fn is_given(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.camera_file.is_some()
     }
 
@@ -81,12 +81,12 @@ impl CameraFile {
     ///
     /// # Errors
     /// As [`lens::read`].
-    pub(crate) fn alone(&self, context: &Context) -> Result<Option<Camera>, Failure> {
+    pub(crate) fn read_camera(&self, context: &Context) -> Result<Option<Camera>, Failure> {
         let Some(file) = &self.camera_file else {
             return Ok(None);
         };
         let camera = lens::read(file, None)?;
-        tell_of_unseen(&camera, context)?;
+        check_visible_part(&camera, context)?;
         Ok(Some(camera))
     }
 
@@ -107,12 +107,12 @@ impl CameraFile {
         let camera = lens::read(file, Some(paths[0]))?;
         if lens::read_rig(file, Some(paths[0])).is_ok() {
             context.warn(&format!(
-                "{} holds a rig: both photographs are taken to be by its first camera; epipole rectify --rig uses both \
+                "{} holds a rig: both images are taken to be by its first camera; epipole rectify --rig uses both \
                  cameras and their pose",
                 file.display()
             ));
         }
-        tell_of_unseen(&camera, context)?;
+        check_visible_part(&camera, context)?;
         let [first, second] = paths.map(|path| Photo::by_camera(path, size, &camera, context));
         let photos = [first?, second?];
         let others: Vec<(String, (u32, u32))> = (photos.iter().zip(paths))
@@ -128,7 +128,7 @@ impl CameraFile {
                 ),
             ));
         }
-        tell_of_others(&camera, &others, 2, context);
+        warn_of_others(&camera, &others, 2, context);
         Ok(photos)
     }
 }
@@ -155,10 +155,10 @@ pub(crate) fn warn_of_unseen(
     pixels: [&[Point2<f64>]; 2],
     context: &Context,
 ) {
-    let is_seen = |n: usize, i: usize| cameras[n].observe(&pixels[n][i]).is_ok();
+    let is_visible = |n: usize, i: usize| cameras[n].observe(&pixels[n][i]).is_ok();
     let num_matches = pixels[0].len();
-    let seen = (0..num_matches).filter(|&i| is_seen(0, i) && is_seen(1, i));
-    let num_unseen = num_matches - seen.count();
+    let visible = (0..num_matches).filter(|&i| is_visible(0, i) && is_visible(1, i));
+    let num_unseen = num_matches - visible.count();
     if num_unseen > 0 {
         context.warn(&format!(
             "{num_unseen} of {num_matches} matches are left out: the lens model of --camera has no rays there"

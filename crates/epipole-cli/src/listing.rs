@@ -44,11 +44,11 @@ impl ListingArguments {
     /// twice.
     pub(crate) fn photos(
         self,
-        given: &[PathBuf],
+        inputs: &[PathBuf],
         context: &Context,
     ) -> Result<Vec<Listed>, Failure> {
         let mut paths = Vec::new();
-        for path in given {
+        for path in inputs {
             if path.is_dir() {
                 let mut found = Found::default();
                 found.look(path, self.recursive)?;
@@ -66,7 +66,7 @@ impl ListingArguments {
                 paths.push(path.clone());
             }
         }
-        named(paths)
+        with_common_folder(paths)
     }
 }
 
@@ -120,7 +120,7 @@ impl Found {
         let first = file_name(self.unread.first()?);
         let count = self.unread.len();
         Some(format!(
-            "photographs of a format that is not read ({count}, such as {first}): convert them to JPEG or PNG"
+            "images of a format that is not read ({count}, such as {first}): convert them to JPEG or PNG"
         ))
     }
 
@@ -129,7 +129,7 @@ impl Found {
         if let Some(unread) = self.unread_words() {
             return format!("there are only {unread}");
         }
-        let nothing = "there are no photographs in this folder";
+        let nothing = "there are no images in this folder";
         match self.num_folders {
             0 => nothing.to_owned(),
             count => format!("{nothing}, but {count} of its own: give --recursive to look there"),
@@ -164,7 +164,7 @@ fn parts(text: &str) -> impl Iterator<Item = (char, usize, &str)> {
 }
 
 /// Names each file relative to the folder that all share.
-fn named(paths: Vec<PathBuf>) -> Result<Vec<Listed>, Failure> {
+fn with_common_folder(paths: Vec<PathBuf>) -> Result<Vec<Listed>, Failure> {
     let mut whole = Vec::with_capacity(paths.len());
     for path in &paths {
         let parent = match path.parent() {
@@ -254,10 +254,10 @@ mod tests {
                 .iter()
                 .for_each(|file| std::fs::write(root.join(folder).join(file), "").unwrap());
         }
-        let names = |given: &[&str], recursive| {
-            let given: Vec<PathBuf> = given.iter().map(|one| root.join(one)).collect();
+        let names = |inputs: &[&str], recursive| {
+            let inputs: Vec<PathBuf> = inputs.iter().map(|one| root.join(one)).collect();
             let listed = ListingArguments { recursive }.photos(
-                &given,
+                &inputs,
                 &Context {
                     quiet: true,
                     seed: 0,
@@ -273,11 +273,11 @@ mod tests {
             names(&["x/B/2.jpg", "x/A/10.jpg"], false).unwrap(),
             ["B/2.jpg", "A/10.jpg"]
         );
-        let told = |given: &[&str], recursive| names(given, recursive).unwrap_err().message;
-        assert!(told(&["x"], false).contains("--recursive"));
-        assert!(told(&["x/C"], false).contains("such as 1.heic"));
-        assert!(told(&["x/B", "x/B/../B/2.jpg"], false).contains("is given twice"));
-        assert!(told(&["x/D"], false).contains("there is no such file"));
+        let error_of = |inputs: &[&str], recursive| names(inputs, recursive).unwrap_err().message;
+        assert!(error_of(&["x"], false).contains("--recursive"));
+        assert!(error_of(&["x/C"], false).contains("such as 1.heic"));
+        assert!(error_of(&["x/B", "x/B/../B/2.jpg"], false).contains("is given twice"));
+        assert!(error_of(&["x/D"], false).contains("there is no such file"));
         std::fs::remove_dir_all(&root).unwrap();
     }
 }

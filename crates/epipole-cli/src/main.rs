@@ -31,8 +31,8 @@ mod reading;
 mod refinement;
 mod report;
 mod robust;
+mod rotation_only;
 mod short_help;
-mod turn;
 mod units;
 
 use clap::error::ErrorKind;
@@ -79,7 +79,7 @@ struct Cli {
 fn main() -> ExitCode {
     let mut command = command();
     if std::env::args().any(|argument| argument == "-h") {
-        command = short_help::shortened(command);
+        command = short_help::shorten(command);
     }
     command.build();
     let arguments = match config::with_file(&command, std::env::args_os().collect()) {
@@ -90,7 +90,7 @@ fn main() -> ExitCode {
         }
     };
     let parsed = command.clone().try_get_matches_from(&arguments);
-    if let Some(dumped) = dumped(&command, &arguments, &parsed) {
+    if let Some(dumped) = dump_options(&command, &arguments, &parsed) {
         return dumped;
     }
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
@@ -127,7 +127,7 @@ fn command() -> clap::Command {
 
 /// Prints the options of a command line with `--dump-config`, even if required arguments are
 /// missing.
-fn dumped(
+fn dump_options(
     command: &clap::Command,
     arguments: &[OsString],
     parsed: &Result<clap::ArgMatches, clap::Error>,
@@ -138,8 +138,8 @@ fn dumped(
         return None;
     }
     let matches = config::partial_matches(command, arguments).ok()?;
-    let (_, given) = matches.subcommand()?;
-    if !given.get_flag("dump_config") {
+    let (_, submatches) = matches.subcommand()?;
+    if !submatches.get_flag("dump_config") {
         return None;
     }
     Some(match config::dump(command, &matches) {
@@ -148,7 +148,7 @@ fn dumped(
             Err(_) => ExitCode::FAILURE,
         },
         Err(failure) => {
-            print_failure(&failure, given.get_flag("json"));
+            print_failure(&failure, submatches.get_flag("json"));
             failure.exit_code()
         }
     })
@@ -213,20 +213,20 @@ mod tests {
     use super::command;
 
     #[test]
-    fn what_a_command_reads_and_writes_stands_under_no_heading_of_others() {
+    fn inputs_and_outputs_are_under_no_other_heading() {
         let own = [
             "output", "png", "images", "k", "k2", "focal_px", "gravity", "gravity2",
         ];
-        let mut seen = 0;
+        let mut num_checked = 0;
         for subcommand in command().get_subcommands() {
             for argument in subcommand.get_arguments() {
                 if own.contains(&argument.get_id().as_str()) {
                     let place = format!("{} {}", subcommand.get_name(), argument.get_id());
                     assert_eq!(argument.get_help_heading(), None, "{place}");
-                    seen += 1;
+                    num_checked += 1;
                 }
             }
         }
-        assert!(seen > 20, "only {seen} were found");
+        assert!(num_checked > 20, "only {num_checked} were found");
     }
 }

@@ -49,13 +49,13 @@ pub(crate) fn text(
 
 /// Returns the text of the inliers of matches, or of points if the second list is empty.
 pub(crate) fn inliers(path: &Path, pixels: [&[Point2<f64>]; 2], mask: &[bool]) -> String {
-    let kept = pixels.map(|list| -> Vec<Point2<f64>> {
-        let kept = list.iter().zip(mask).filter(|(_, is_inlier)| **is_inlier);
-        kept.map(|(pixel, _)| *pixel).collect()
+    let selected = pixels.map(|list| -> Vec<Point2<f64>> {
+        let selected = list.iter().zip(mask).filter(|(_, is_inlier)| **is_inlier);
+        selected.map(|(pixel, _)| *pixel).collect()
     });
     match pixels {
-        [_, []] => write_points(layout(path), &kept[0]),
-        _ => text(path, [&kept[0], &kept[1]], &[]),
+        [_, []] => write_points(layout(path), &selected[0]),
+        _ => text(path, [&selected[0], &selected[1]], &[]),
     }
 }
 

@@ -102,7 +102,7 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
 }
 
 /// Reads a fraction, 0 to 1.
-pub(crate) fn share(text: &str) -> Result<f64, String> {
+pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
         _ => Err(format!("\"{text}\" is not a number from 0 to 1")),

@@ -22,7 +22,11 @@ impl ImageFolder {
     ///
     /// # Errors
     /// If there is none.
-    pub(crate) fn find(given: Option<&Path>, model: &Path, option: &str) -> Result<Self, Failure> {
+    pub(crate) fn find(
+        folder_option: Option<&Path>,
+        model: &Path,
+        option: &str,
+    ) -> Result<Self, Failure> {
         let beside = || {
             let folder = match model.is_dir() {
                 true => model,
@@ -32,7 +36,10 @@ impl ImageFolder {
             let mut candidates = (folder.ancestors().take(3)).map(|folder| folder.join("images"));
             candidates.find(|folder| folder.is_dir())
         };
-        let found = given.map(Path::to_path_buf).or_else(beside).map(Self);
+        let found = folder_option
+            .map(Path::to_path_buf)
+            .or_else(beside)
+            .map(Self);
         found.ok_or_else(|| {
             let message = format!("there is no folder images beside the model: give {option}");
             Failure::usage(message).about(model)
@@ -52,7 +59,7 @@ impl ImageFolder {
     ///
     /// # Errors
     /// If none is.
-    pub(crate) fn tell_of_missing(
+    pub(crate) fn warn_of_missing(
         &self,
         missing: &[&str],
         num_images: usize,

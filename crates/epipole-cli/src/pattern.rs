@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 use epipole::calibration::{MarkerDictionary, Pattern};
 
 /// Default side of a marker, relative to that of its square.
-const MARKER_SHARE: f64 = 0.75;
+const MARKER_RATIO: f64 = 0.75;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Printed {
@@ -47,7 +47,7 @@ impl PatternArguments {
             Printed::AsymmetricCircles => Pattern::AsymmetricCircles,
             Printed::Charuco => Pattern::Charuco {
                 dictionary: self.dictionary,
-                marker_ratio: marker.map_or(MARKER_SHARE, |marker| marker / square),
+                marker_ratio: marker.map_or(MARKER_RATIO, |marker| marker / square),
             },
             Printed::Aprilgrid => Pattern::AprilGrid {
                 spacing: self.tag_spacing,

@@ -25,7 +25,7 @@ pub(crate) struct Photo {
     /// K, if the camera is known, or if the distortion of its lens was removed.
     pub(crate) k: Option<Intrinsics>,
     /// The lens, if it is known and its distortion was kept.
-    pub(crate) lens: Option<KeptLens>,
+    pub(crate) lens: Option<RetainedLens>,
     /// Width and height before downscaling.
     pub(crate) full_size: (u32, u32),
     /// Width and height before downscaling and rotation.
@@ -36,7 +36,7 @@ pub(crate) struct Photo {
 
 /// A lens whose distortion a photo keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct KeptLens {
+pub(crate) struct RetainedLens {
     pub(crate) lens: Lens,
     /// Number of quarter turns from the frame of the camera to upright.
     pub(crate) quarters: u8,
@@ -91,7 +91,7 @@ impl Photo {
         let mut photo = Self::from(prepared);
         if let Some(camera) = its_own {
             photo.k = Some(camera.intrinsics);
-            photo.lens = Some(KeptLens {
+            photo.lens = Some(RetainedLens {
                 lens: camera.lens,
                 quarters,
             });
@@ -107,7 +107,7 @@ impl Photo {
             focal_mm: None,
             place: None,
             k: camera.map(|camera| camera.intrinsics),
-            lens: camera.map(|camera| KeptLens {
+            lens: camera.map(|camera| RetainedLens {
                 lens: camera.lens,
                 quarters: 0,
             }),
@@ -121,7 +121,7 @@ impl Photo {
     pub(crate) fn camera(&self, intrinsics: Intrinsics) -> Camera {
         let (width, height) = self.color.dimensions();
         Camera {
-            lens: self.lens.map_or(Lens::NONE, |kept| kept.lens),
+            lens: self.lens.map_or(Lens::NONE, |retained| retained.lens),
             ..Camera::pinhole(intrinsics, width, height)
         }
     }
@@ -141,7 +141,7 @@ impl Photo {
             .with_apply_orientation(false);
         let decoded = decode_rgb(&bytes(path)?, &as_stored);
         let decoded = decoded.map_err(|error| reading.failure(error, path))?;
-        reading.tell_of_range(decoded.range, path, context);
+        reading.warn_of_range(decoded.range, path, context);
         Ok(decoded.image)
     }
 
@@ -187,7 +187,7 @@ fn prepare(
         .with_undistortion(undistortion);
     let photo = prepare_photo(&bytes(path)?, &options)
         .map_err(|error| size.reading.failure(error, path))?;
-    size.reading.tell_of_range(photo.range, path, context);
+    size.reading.warn_of_range(photo.range, path, context);
     if is_flat(&photo.image) {
         let path = path.display();
         context.warn(&format!(
@@ -214,7 +214,7 @@ pub(crate) fn check_same_size([first, second]: &[Photo; 2]) -> Result<(), Failur
         return Ok(());
     }
     let message = format!(
-        "the two photographs must have the same size, but one is {} × {} and the other {} × {}",
+        "the two images must have the same size, but one is {} × {} and the other {} × {}",
         first.width, first.height, second.width, second.height
     );
     Err(Failure::new("size-mismatch", message))

@@ -67,8 +67,8 @@ pub(crate) fn line(picture: &mut RgbImage, from: (f64, f64), to: (f64, f64), col
         .ceil()
         .clamp(1.0, 1e5);
     for step in 0..=length as u32 {
-        let share = f64::from(step) / length;
-        let at = |a: f64, b: f64| a + share * (b - a);
+        let fraction = f64::from(step) / length;
+        let at = |a: f64, b: f64| a + fraction * (b - a);
         dot(picture, at(from.0, to.0), at(from.1, to.1), color);
     }
 }

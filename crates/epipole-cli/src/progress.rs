@@ -26,15 +26,15 @@ impl Progress {
     }
 
     /// Shows the completed fraction, 0 to 1.
-    pub(crate) fn set(&self, share: f64) {
+    pub(crate) fn set(&self, fraction: f64) {
         self.0
-            .set_position((share.clamp(0.0, 1.0) * STEPS as f64) as u64);
+            .set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
     }
 
     /// Shows the progress and the stage of a function of the core, and lets Ctrl-C end it.
     pub(crate) fn show(&self, status: Status) -> ControlFlow<()> {
         self.0.set_message(status.stage.words());
-        self.set(f64::from(status.share));
+        self.set(f64::from(status.fraction));
         interrupt::watch(status)
     }
 }

@@ -49,12 +49,12 @@ impl ReadArguments {
     }
 
     /// Warns once per run which values became black and white, if the range is automatic.
-    pub(crate) fn tell_of_range(self, range: Option<[f64; 2]>, path: &Path, context: &Context) {
-        static IS_TOLD: AtomicBool = AtomicBool::new(false);
+    pub(crate) fn warn_of_range(self, range: Option<[f64; 2]>, path: &Path, context: &Context) {
+        static IS_REPORTED: AtomicBool = AtomicBool::new(false);
         let (PixelRange::Auto, Some([low, high])) = (self.range, range) else {
             return;
         };
-        if !IS_TOLD.swap(true, Ordering::Relaxed) {
+        if !IS_REPORTED.swap(true, Ordering::Relaxed) {
             let [low, high] = [low, high].map(six_digits);
             context.warn(&format!(
                 "{} has more than 8 bits, of which the values from {low} to {high} are in use: these become black and \

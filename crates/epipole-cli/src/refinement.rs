@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_said_is_the_default_of_the_core() {
+    fn omitted_options_have_the_defaults_of_the_core() {
         let all = All::try_parse_from(["epipole"]).unwrap().refinement;
         let core = LmOptions::default();
         assert_eq!(all.options(core.max_iterations), core);

@@ -228,7 +228,7 @@ impl RobustArguments {
     pub(crate) fn warn<M>(&self, report: &RansacReport<M>, context: &Context) {
         let (drawn, required) = (report.iterations, report.required_iterations);
         self.warn_of_stop(report.stop, drawn, required, context);
-        if report.could_be_chance() {
+        if report.could_be_random() {
             context.warn(&format!(
                 "the model is not significant: {} inliers are no more than random data would have",
                 report.num_unique_inliers
@@ -277,9 +277,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_threshold_of_photographs_is_that_of_the_core() {
-        let said: f64 = PHOTO_MAX_ERROR.parse().expect("a number");
-        assert_eq!(said, epipole::two_view::PHOTO_MAX_ERROR_PX);
+    fn the_threshold_of_photos_is_that_of_the_core() {
+        let parsed: f64 = PHOTO_MAX_ERROR.parse().expect("a number");
+        assert_eq!(parsed, epipole::two_view::PHOTO_MAX_ERROR_PX);
     }
 
     #[test]

@@ -97,7 +97,7 @@ const LONG: usize = 45;
 const WIDTH: usize = 80;
 
 /// The command with its help cut to one screen.
-pub(crate) fn shortened(command: Command) -> Command {
+pub(crate) fn shorten(command: Command) -> Command {
     command
         .mut_args(|argument| match argument.get_long() {
             Some("json") => argument,
@@ -110,7 +110,7 @@ pub(crate) fn shortened(command: Command) -> Command {
                 .as_deref()
                 .and_then(|text| text.split("\n\n").next());
             let more = format!("All options and the fields of --json: epipole {name} --help");
-            let after = [&continued(example.unwrap_or_default()), &more[..]].join("\n");
+            let after = [&wrap_lines(example.unwrap_or_default()), &more[..]].join("\n");
             let rare = RARE.iter().find(|(command, _)| *command == name);
             let rare = rare.map_or(&[][..], |(_, options)| options);
             subcommand
@@ -140,7 +140,7 @@ fn short(argument: Arg, rare: &[&str]) -> Arg {
 }
 
 /// A command in lines of at most 80 characters.
-fn continued(command: &str) -> String {
+fn wrap_lines(command: &str) -> String {
     match command.get(..WIDTH - 1).and_then(|start| start.rfind(' ')) {
         Some(end) if command.len() > WIDTH => {
             format!("{} \\\n    {}", &command[..end], &command[end + 1..])
@@ -168,13 +168,13 @@ fn before<'a>(text: &'a str, ends: &[&str]) -> &'a str {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-    use super::{WIDTH, shortened};
+    use super::{WIDTH, shorten};
     use crate::command;
 
     #[test]
     fn short_help_fits_on_a_screen() {
         let mut wrong = Vec::new();
-        let mut command = shortened(command());
+        let mut command = shorten(command());
         command.build();
         for subcommand in command.get_subcommands_mut() {
             let text = subcommand.render_help().to_string();

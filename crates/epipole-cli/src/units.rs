@@ -5,7 +5,7 @@ use epipole::camera::Intrinsics;
 use nalgebra::Point2;
 
 /// Bound of coordinates that are fractions of an image or rays, not pixels.
-const SHARES: f64 = 2.0;
+const MAX_FRACTION: f64 = 2.0;
 
 /// Factor of the principal point beyond which a pixel is outside the image.
 const BEYOND: f64 = 3.0;
@@ -13,10 +13,10 @@ const BEYOND: f64 = 3.0;
 /// Warns of coordinates that are not pixels, without a camera.
 ///
 /// * `max_error_px`: maximum error of an inlier; a small one shows that the unit is intended
-pub(crate) fn warn_of_shares(pixels: &[&[Point2<f64>]], max_error_px: f64, context: &Context) {
+pub(crate) fn warn_of_fractions(pixels: &[&[Point2<f64>]], max_error_px: f64, context: &Context) {
     let all = pixels.iter().copied().flatten();
     let reach = all.map(|pixel| pixel.coords.amax()).fold(0.0, f64::max);
-    if reach > 0.0 && reach <= SHARES && max_error_px > reach / 10.0 {
+    if reach > 0.0 && reach <= MAX_FRACTION && max_error_px > reach / 10.0 {
         context.warn(&format!(
             "all coordinates are within ± {reach:.2}: they look like fractions of the image or rays, not pixels. \
              Multiply them by the size of the image, or give a --max-error-px of their unit"
@@ -31,7 +31,7 @@ pub(crate) fn warn_of_units(pixels: &[Point2<f64>], k: &Intrinsics, context: &Co
         .iter()
         .map(|pixel| pixel.coords.amax())
         .fold(0.0, f64::max);
-    if reach <= SHARES && k.fu_px() > 10.0 * SHARES {
+    if reach <= MAX_FRACTION && k.fu_px() > 10.0 * MAX_FRACTION {
         context.warn(&format!(
             "all coordinates are within ± {reach:.2}: they look like fractions of the image or rays, not pixels. \
              Multiply them by the size of the image, or give --k 1,1,0,0 with a small \

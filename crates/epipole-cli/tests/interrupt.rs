@@ -97,9 +97,9 @@ fn fits_end_with_the_best_model_so_far() {
     for model in ["similarity", "homography", "line"] {
         let arguments = [&["fit", "--model", model, "/dev/stdin"], &ENDLESS[..]].concat();
         let output = interrupted_while_reading(&arguments, matches_text(false).as_bytes());
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "{model}: {told}");
-        assert!(told.contains("warning: ended early"), "{model}: {told}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "{model}: {stderr}");
+        assert!(stderr.contains("warning: ended early"), "{model}: {stderr}");
         let result = parse(&output);
         // The signal came before the first sample, which is drawn nevertheless.
         assert_eq!(
@@ -149,21 +149,21 @@ fn two_views_are_canceled() {
     let size = (240, 180);
     let shift = RigidTransform::new(Vector3::new(-0.1, 0.0, 0.0), Vector3::y() * 0.02);
     for (name, motion) in [("1.png", RigidTransform::identity()), ("2.png", shift)] {
-        folder.photograph(name, &moved(size, &motion), size);
+        folder.write_photo(name, &moved(size, &motion), size);
     }
     let mut second = std::fs::read(folder.file("2.png")).unwrap();
     // Data behind the end of a PNG are ignored.
     second.resize(second.len().max(1 << 21), 0);
     let camera = k(&moved(size, &RigidTransform::identity()));
-    for given in [&["--k", &camera][..], &[]] {
+    for arguments in [&["--k", &camera][..], &[]] {
         let first = folder.file("1.png");
         let photos = ["two-view", path(&first), "/dev/stdin", "--json"];
-        let output = interrupted_while_reading(&[&photos, given].concat(), &second);
-        let told = String::from_utf8_lossy(&output.stderr);
+        let output = interrupted_while_reading(&[&photos, arguments].concat(), &second);
+        let stderr = String::from_utf8_lossy(&output.stderr);
         let result = parse(&output);
         // The choice among models needs all of them.
-        assert_eq!(output.status.code(), Some(1), "{told}");
-        assert_eq!(result["error"]["kind"], "canceled", "{told}");
+        assert_eq!(output.status.code(), Some(1), "{stderr}");
+        assert_eq!(result["error"]["kind"], "canceled", "{stderr}");
     }
 }
 
@@ -199,7 +199,7 @@ fn structure_from_motion_is_valid_whenever_it_ends() {
             &RigidTransform::new(shift, Vector3::y() * 0.03 * f64::from(n)),
         );
         let name = format!("{n}.png");
-        folder.photograph(&name, &camera, size);
+        folder.write_photo(&name, &camera, size);
         photos.push(folder.file(&name));
     }
     let camera = k(&moved(size, &RigidTransform::identity()));

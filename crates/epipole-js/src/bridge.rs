@@ -20,18 +20,18 @@ const MAX_DEPTH: usize = 16;
 /// # Errors
 /// An array of class or code, and message.
 #[wasm_bindgen]
-pub fn call(name: &str, given: &Array, report: Option<Function>) -> Result<JsValue, JsValue> {
-    let given: Vec<Value> = given.iter().map(|value| from_js(&value, 0)).collect();
+pub fn call(name: &str, arguments: &Array, report: Option<Function>) -> Result<JsValue, JsValue> {
+    let arguments: Vec<Value> = arguments.iter().map(|value| from_js(&value, 0)).collect();
     let result = match report {
-        Some(report) => crate::call(name, &given, &mut |status: Status| {
+        Some(report) => crate::call(name, &arguments, &mut |status: Status| {
             let words = JsValue::from_str(status.stage.words());
-            let share = JsValue::from_f64(f64::from(status.share));
-            match report.call2(&JsValue::NULL, &words, &share) {
+            let fraction = JsValue::from_f64(f64::from(status.fraction));
+            match report.call2(&JsValue::NULL, &words, &fraction) {
                 Ok(goes_on) if goes_on != JsValue::FALSE => ControlFlow::Continue(()),
                 _ => ControlFlow::Break(()),
             }
         }),
-        None => crate::call(name, &given, &mut ()),
+        None => crate::call(name, &arguments, &mut ()),
     };
     result.map(to_js).map_err(|Fault { kind, message }| {
         Array::of2(&JsValue::from_str(kind), &JsValue::from_str(&message)).into()

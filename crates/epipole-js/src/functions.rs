@@ -29,24 +29,24 @@ pub struct Signature {
 
 /// Arguments yet to be read.
 pub(crate) struct Arguments<'a> {
-    given: std::slice::Iter<'a, Value>,
+    values: std::slice::Iter<'a, Value>,
 }
 
 impl<'a> Arguments<'a> {
-    pub(crate) fn new(name: &str, most: usize, given: &'a [Value]) -> Result<Self> {
-        if given.len() > most {
+    pub(crate) fn new(name: &str, most: usize, values: &'a [Value]) -> Result<Self> {
+        if values.len() > most {
             return Err(Fault::of_type(format!(
                 "{} takes at most {most} arguments, but is given {}",
                 camel(name),
-                given.len()
+                values.len()
             )));
         }
-        let given = given.iter();
-        Ok(Self { given })
+        let values = values.iter();
+        Ok(Self { values })
     }
 
     pub(crate) fn next<T: Argument>(&mut self, name: &str) -> Result<T> {
-        T::read(&camel(name), self.given.next().unwrap_or(&Value::Nothing))
+        T::read(&camel(name), self.values.next().unwrap_or(&Value::Nothing))
     }
 }
 
@@ -59,12 +59,12 @@ macro_rules! functions {
     )+) => {
         $(
             fn $name(
-                given: &[$crate::value::Value],
+                values: &[$crate::value::Value],
                 all: &mut dyn epipole::progress::Monitor,
             ) -> $crate::fault::Result<$crate::value::Value> {
                 let most = [$(stringify!($arg)),*].len();
                 let mut arguments = $crate::functions::Arguments::new(
-                    stringify!($name), most, given,
+                    stringify!($name), most, values,
                 )?;
                 $(let $arg: $type = arguments.next(stringify!($arg))?;)*
                 let _ = &all;

@@ -225,11 +225,11 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
 ///
 /// # Errors
 /// The error to throw.
-pub fn call(name: &str, given: &[Value], monitor: &mut dyn Monitor) -> Result<Value> {
+pub fn call(name: &str, values: &[Value], monitor: &mut dyn Monitor) -> Result<Value> {
     let function = GROUPS
         .iter()
         .flat_map(|group| group.functions)
         .find(|function| value::camel(function.name) == name)
         .ok_or_else(|| Fault::of_type(format!("there is no function {name}")))?;
-    (function.call)(given, monitor)
+    (function.call)(values, monitor)
 }

@@ -388,7 +388,7 @@ impl<M: Output> Output for RansacReport<M> {
                 ("refinements", "number", "Local optimizations."),
                 ("stop", &stop, "Reason for the end of the loop."),
                 (
-                    "couldBeChance",
+                    "couldBeRandom",
                     "boolean",
                     "Whether random data might show as much support.",
                 ),
@@ -398,7 +398,7 @@ impl<M: Output> Output for RansacReport<M> {
     }
 
     fn into_value(self) -> Value {
-        let could_be_chance = self.could_be_chance();
+        let could_be_random = self.could_be_random();
         record([
             ("model", self.model.into_value()),
             ("inliers", Mask(self.inliers).into_value()),
@@ -412,7 +412,7 @@ impl<M: Output> Output for RansacReport<M> {
             ("log10FalseAlarms", self.log10_false_alarms.into_value()),
             ("refinements", self.refinements.into_value()),
             ("stop", self.stop.into_value()),
-            ("couldBeChance", could_be_chance.into_value()),
+            ("couldBeRandom", could_be_random.into_value()),
         ])
     }
 }

@@ -60,14 +60,14 @@ functions! {
     fn multi_view_problem(options: Options<MultiViewProblemOptions>) -> ManyViews {
         let MultiViewProblem { cameras, points, observations } =
             MultiViewProblem::new(&options.0)?;
-        let pixels: Vec<_> = observations.iter().map(|seen| seen.pixel).collect();
+        let pixels: Vec<_> = observations.iter().map(|observation| observation.pixel).collect();
         ManyViews {
             cameras,
             points: Numbers::of_points(&points),
-            observation_camera: Indices(observations.iter().map(|seen| seen.camera).collect()),
-            observation_point: Indices(observations.iter().map(|seen| seen.point).collect()),
+            observation_camera: Indices(observations.iter().map(|observation| observation.camera).collect()),
+            observation_point: Indices(observations.iter().map(|observation| observation.point).collect()),
             observation_pixel: Numbers::of_points(&pixels),
-            observation_is_inlier: Mask(observations.iter().map(|seen| seen.is_inlier).collect()),
+            observation_is_inlier: Mask(observations.iter().map(|observation| observation.is_inlier).collect()),
         }
     }
 }

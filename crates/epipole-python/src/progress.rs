@@ -138,7 +138,7 @@ impl Watch<'_> {
         Python::attach(|py| {
             py.check_signals()?;
             if let Some(callback) = &self.callback {
-                callback.call1(py, (status.stage.words(), status.share))?;
+                callback.call1(py, (status.stage.words(), status.fraction))?;
             }
             Ok(())
         })

@@ -122,14 +122,14 @@ wrapper!(Panorama: pixel_from_direction, rotations, scale_px, focal_factor);
 /// Matrices by photo.
 type Matrices<'py> = Vec<Option<Bound<'py, PyAny>>>;
 
-fn read_matrices(name: &str, given: &Matrices<'_>) -> PyResult<Vec<Option<Matrix3<f64>>>> {
+fn read_matrices(name: &str, matrices: &Matrices<'_>) -> PyResult<Vec<Option<Matrix3<f64>>>> {
     let read = |(place, value): (usize, &Option<Bound<'_, PyAny>>)| {
         let value = value.as_ref();
         value
             .map(|value| matrix(&format!("{name}[{place}]"), value))
             .transpose()
     };
-    given.iter().enumerate().map(read).collect()
+    matrices.iter().enumerate().map(read).collect()
 }
 
 fn give_matrices<'py>(

@@ -180,10 +180,10 @@ impl MultiViewProblem {
     /// All observations, sorted by point, then by camera.
     #[getter]
     fn observations(&self, py: Python<'_>) -> PyResult<Sightings> {
-        let seen = &self.problem.observations;
-        let at: Vec<_> = seen.iter().map(|sighting| sighting.pixel).collect();
-        let is_inlier = seen.iter().map(|sighting| sighting.is_inlier);
-        let rows = seen
+        let sightings = &self.problem.observations;
+        let at: Vec<_> = sightings.iter().map(|sighting| sighting.pixel).collect();
+        let is_inlier = sightings.iter().map(|sighting| sighting.is_inlier);
+        let rows = sightings
             .iter()
             .map(|sighting| [sighting.camera, sighting.point]);
         Ok(Sightings {

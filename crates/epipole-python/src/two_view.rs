@@ -384,10 +384,10 @@ fn find_explaining_rotation(
     let found = progress::detach(py, || {
         two_view::find_explaining_rotation(&pixels1, &pixels2, cameras, &inliers, &options)
     });
-    Ok(found.or_raise()?.map(|turn| ExplainingRotation {
-        cam2_from_cam1: turn.cam2_from_cam1.into(),
-        num_explained: turn.num_explained,
-        num_inliers: turn.num_inliers,
+    Ok(found.or_raise()?.map(|found_rotation| ExplainingRotation {
+        cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
+        num_explained: found_rotation.num_explained,
+        num_inliers: found_rotation.num_inliers,
     }))
 }
 
@@ -426,11 +426,11 @@ fn find_rotation_and_focal(
     let found = progress::detach(py, || {
         two_view::find_rotation_and_focal(&pixels1, &pixels2, cameras, &inliers, &options)
     });
-    Ok(found.or_raise()?.map(|turn| RotationAndFocal {
-        cam2_from_cam1: turn.cam2_from_cam1.into(),
-        focal_factor: turn.focal_factor,
-        num_explained: turn.num_explained,
-        num_inliers: turn.num_inliers,
+    Ok(found.or_raise()?.map(|found_rotation| RotationAndFocal {
+        cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
+        focal_factor: found_rotation.focal_factor,
+        num_explained: found_rotation.num_explained,
+        num_inliers: found_rotation.num_inliers,
     }))
 }
 

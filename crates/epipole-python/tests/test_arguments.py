@@ -91,8 +91,8 @@ def test_errors_have_one_base(world):
 
 
 def test_options(world, outliers):
-    given = {"score": "inlier_count", "max_iterations": np.int32(7)}
-    report = epipole.estimate_fundamental(*outliers, **given)
+    arguments = {"score": "inlier_count", "max_iterations": np.int32(7)}
+    report = epipole.estimate_fundamental(*outliers, **arguments)
     assert report.iterations == 7 and report.stop == "exhausted"
     for bad, error, message in [
         ({"max_eror_px": 1}, TypeError, "unknown option max_eror_px.*max_error_px.*confidence"),

@@ -11,14 +11,14 @@ import epipole
 from epipole import calibration
 from epipole.calibration import Board, BoardView, calibrate, calibrate_rig, find_board
 
-TURNS = [(0.5, 0, 0.1), (-0.5, 0.1, 0), (0, 0.5, 0), (0.1, -0.5, 0.2), (0.3, 0.3, -0.1)]
+ROTATIONS = [(0.5, 0, 0.1), (-0.5, 0.1, 0), (0, 0.5, 0), (0.1, -0.5, 0.2), (0.3, 0.3, -0.1)]
 K = np.array([[600.0, 0, 322], [0, 605.0, 238], [0, 0, 1]])
 BROWN = [-0.2, 0.05, 0.001, -0.0005, 0.0]
 
 
-def pose(turn, shift=(-0.09, -0.06, 0.4)):
-    turn = np.asarray(turn, float)
-    return epipole.RigidTransform(rotation(turn, np.linalg.norm(turn)), shift)
+def pose(rotation_vector, shift=(-0.09, -0.06, 0.4)):
+    rotation_vector = np.asarray(rotation_vector, float)
+    return epipole.RigidTransform(rotation(rotation_vector, np.linalg.norm(rotation_vector)), shift)
 
 
 def board_points(board):
@@ -36,14 +36,14 @@ def camera():
     return epipole.Camera(640, 480, intrinsics, epipole.Lens("brown", BROWN))
 
 
-def see(board, camera, pose, noise=0.0, seed=0):
+def observe(board, camera, pose, noise=0.0, seed=0):
     pixels = camera.project(pose @ board_points(board))
     return BoardView(pixels + noise * np.random.default_rng(seed).normal(size=pixels.shape))
 
 
 @pytest.fixture
 def views(board, camera):
-    return [see(board, camera, pose(turn), 0.1, seed) for seed, turn in enumerate(TURNS)]
+    return [observe(board, camera, pose(rotation_vector), 0.1, seed) for seed, rotation_vector in enumerate(ROTATIONS)]
 
 
 def test_boards():
@@ -66,8 +66,8 @@ def test_calibration_finds_the_truth(board, camera, views):
     np.testing.assert_allclose(found.camera.intrinsics.matrix(), K, atol=2)
     assert found.views[1] is None and len(found.views) == 6
     assert found.views[0].num_marks == 35
-    turned = found.views[0].cam_from_board.rotation
-    np.testing.assert_allclose(turned, pose(TURNS[0]).rotation, atol=0.01)
+    rotated = found.views[0].cam_from_board.rotation
+    np.testing.assert_allclose(rotated, pose(ROTATIONS[0]).rotation, atol=0.01)
     assert found.std_dev_k.shape == (4,) and found.std_dev_lens.shape == (5,)
     assert all(isinstance(warning.message, str) for warning in found.warnings)
 
@@ -87,9 +87,9 @@ def test_calibration_as_opencv(board, views):
 
 def test_rig(board, camera):
     right_from_left = epipole.RigidTransform(rotation([0, 1, 0], 0.02), [-0.1, 0, 0.01])
-    poses = [pose(turn) for turn in TURNS]
-    left = [see(board, camera, pose) for pose in poses]
-    right = [see(board, camera, right_from_left @ pose) for pose in poses]
+    poses = [pose(rotation_vector) for rotation_vector in ROTATIONS]
+    left = [observe(board, camera, pose) for pose in poses]
+    right = [observe(board, camera, right_from_left @ pose) for pose in poses]
     rig = calibrate_rig(board, (camera, camera), left, right)
     np.testing.assert_allclose(rig.right_from_left.translation, [-0.1, 0, 0.01], atol=1e-6)
     assert rig.baseline_m == pytest.approx(np.hypot(0.1, 0.01), abs=1e-6)
@@ -98,7 +98,7 @@ def test_rig(board, camera):
 
 def test_intrinsics_from_planes():
     columns = [np.column_stack([r[:, 0], r[:, 1], [0.1, 0.2, 3]]) for r in
-               (rotation(turn, np.linalg.norm(turn)) for turn in TURNS)]
+               (rotation(rotation_vector, np.linalg.norm(rotation_vector)) for rotation_vector in ROTATIONS)]
     found = calibration.intrinsics_from_planes([K @ plane for plane in columns])
     np.testing.assert_allclose(found.matrix(), K, atol=1e-5)
     with pytest.raises(ValueError, match=r"pixels_from_plane\[1\]"):
@@ -111,12 +111,12 @@ def test_find_board(board, camera):
     assert photo.shape == (480, 640) and photo.dtype == np.float32
     search = find_board(photo, board)
     assert search.kind == "found" and search.problem(board) is None
-    truth = see(board, camera, flat).pixels
+    truth = observe(board, camera, flat).pixels
     # The board may be found half a turn round.
     error = min(np.abs(search.view.pixels - t).max() for t in (truth, truth[::-1]))
     assert error < 0.2
-    marks, pixels = search.view.seen()
-    assert len(marks) == search.view.num_seen() == 35 and pixels.shape == (35, 2)
+    marks, pixels = search.view.visible()
+    assert len(marks) == search.view.num_visible() == 35 and pixels.shape == (35, 2)
     nothing = find_board(np.full((100, 100), 128, np.uint8), board)
     assert nothing.kind == "nothing" and nothing.view is None
     assert "no board" in nothing.problem(board)
@@ -212,11 +212,11 @@ def test_pickles_are_equal(board, camera, views):
 
 
 def test_progress_and_cancellation(board, camera, views):
-    seen = []
-    calibrate(board, views, (640, 480), progress=lambda *status: seen.append(status))
-    assert seen[0][0] == "fitting the lens"
+    reports = []
+    calibrate(board, views, (640, 480), progress=lambda *status: reports.append(status))
+    assert reports[0][0] == "fitting the lens"
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):

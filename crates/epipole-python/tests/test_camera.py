@@ -79,6 +79,6 @@ def test_unknown_lens():
 @pytest.mark.parametrize("angle_rad", [0.0, 0.3, 3.0, np.pi])
 def test_angle_of_a_rotation(angle_rad):
     c, s = np.cos(angle_rad), np.sin(angle_rad)
-    turn = epipole.RigidTransform([[c, 0, s], [0, 1, 0], [-s, 0, c]], [1, 2, 3])
-    assert turn.angle_rad == pytest.approx(angle_rad, abs=1e-12)
-    assert turn.inverse().angle_rad == pytest.approx(angle_rad, abs=1e-12)
+    motion = epipole.RigidTransform([[c, 0, s], [0, 1, 0], [-s, 0, c]], [1, 2, 3])
+    assert motion.angle_rad == pytest.approx(angle_rad, abs=1e-12)
+    assert motion.inverse().angle_rad == pytest.approx(angle_rad, abs=1e-12)

@@ -93,7 +93,7 @@ def test_names_left_out_are_public_and_not_in_python():
 
 def test_the_reader_finds_names():
     assert {"sampson_px", "epipolar_line2", "EightPoint"} <= set(public_names("epipolar"))
-    assert "share_center" not in public_names("epipolar")
+    assert "have_same_center" not in public_names("epipolar")
     assert {"camera", "two_view"} <= set(rooms())
 
 

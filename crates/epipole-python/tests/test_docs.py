@@ -151,12 +151,12 @@ def callables():
             yield f"{room}.{name}", value.__doc__, not found.isdisjoint(keys)
 
 
-def without_errors(given):
+def without_errors(arguments):
     """Fallible callables that name no class with a description, but for those by rule."""
     by_rule = " ".join(BY_RULE.values()).split()
     return [
         name
-        for name, docstring, is_fallible in given
+        for name, docstring, is_fallible in arguments
         if is_fallible
         and name not in by_rule
         and not (raised(docstring) and all(text for _, text in raised(docstring)))

@@ -11,7 +11,7 @@ def test_fundamental_of_matches_with_outliers(world, outliers):
     assert same_up_to_scale(report.model, world.fundamental, 1e-5)
     assert report.inliers.dtype == bool and report.inliers.shape == (60,)
     assert report.inliers[:40].all() and report.num_inliers == report.inliers.sum()
-    assert report.max_error_px == 0.5 and not report.could_be_chance()
+    assert report.max_error_px == 0.5 and not report.could_be_random()
 
 
 def test_equal_seeds_give_equal_reports(outliers):

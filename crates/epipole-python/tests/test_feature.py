@@ -89,8 +89,8 @@ def test_descriptions_at_keypoints(image):
     again = feature.describe_sift(image, keypoints)
     assert (again == features.descriptors).mean() > 0.99
     directions = feature.sift_directions(image, keypoints, max_orientations=1)
-    turn = np.array([d[0] for d in directions]) - keypoints.angles_rad
-    assert np.median(np.abs(np.exp(1j * turn) - 1)) < 1e-3
+    rotation = np.array([d[0] for d in directions]) - keypoints.angles_rad
+    assert np.median(np.abs(np.exp(1j * rotation) - 1)) < 1e-3
     patches = feature.describe_patches(image, [(60, 50), (90.5, 70)], 9)
     assert patches.shape == (2, 81)
     patch = image[46:55, 56:65] - image[46:55, 56:65].mean()
@@ -306,11 +306,11 @@ def test_progress_and_cancellation(image, work):
             "matching features",
         ),
     }[work]
-    seen = []
-    run(lambda *status: seen.append(status))
-    assert seen[0][0] == stage and 0 <= seen[0][1] <= 1
+    reports = []
+    run(lambda *status: reports.append(status))
+    assert reports[0][0] == stage and 0 <= reports[0][1] <= 1
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):

@@ -132,7 +132,7 @@ CALLS = {
 @pytest.mark.parametrize("name", CALLS)
 def test_interrupt_stops_long_work(request, name, capsys):
     """Signals after the first report, so that reading the arguments does not count."""
-    seen = []
+    fractions = []
     signaled = []
 
     def interrupt():
@@ -141,10 +141,10 @@ def test_interrupt_stops_long_work(request, name, capsys):
 
     timer = threading.Timer(DELAY_S, interrupt)
 
-    def watch(stage, share):
-        if not seen:
+    def watch(stage, fraction):
+        if not fractions:
             timer.start()
-        seen.append(share)
+        fractions.append(fraction)
 
     # A job of a shell in the background ignores the signal.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -160,7 +160,7 @@ def test_interrupt_stops_long_work(request, name, capsys):
     finally:
         timer.cancel()
         signal.signal(signal.SIGINT, before)
-    assert not has_finished and seen and seen[-1] < 1
+    assert not has_finished and fractions and fractions[-1] < 1
     with capsys.disabled():
         print(f"\n{name}: stopped {1e3 * (ended - signaled[0]):.0f} ms after Ctrl-C", end="")
 

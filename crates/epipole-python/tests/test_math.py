@@ -57,11 +57,11 @@ def test_synthetic_worlds():
     again = synthetic.MultiViewProblem(num_points=150, noise_px=0.3)
     assert again == problem != synthetic.MultiViewProblem(num_points=150, seed=5)
     assert pickle.loads(pickle.dumps(problem)) == problem
-    seen = problem.observations
-    camera, point = seen.indices[0]
-    assert np.abs(problem.cameras[camera].project(problem.points[point]) - seen.pixels[0]).max() < 3
-    assert seen.is_inlier.all() and len(problem.tracks()) == 150
-    assert set(seen.indices[problem.tracks()[3], 1]) == {3}
+    observations = problem.observations
+    camera, point = observations.indices[0]
+    assert np.abs(problem.cameras[camera].project(problem.points[point]) - observations.pixels[0]).max() < 3
+    assert observations.is_inlier.all() and len(problem.tracks()) == 150
+    assert set(observations.indices[problem.tracks()[3], 1]) == {3}
     views = synthetic.TwoViewProblem(
         num_points=50, outlier_fraction=0.2, structure={"plane": {"half_side_m": 1.0}}
     )

@@ -34,7 +34,7 @@ def failing():
 
 
 def raising():
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError):

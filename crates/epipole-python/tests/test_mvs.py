@@ -121,7 +121,7 @@ def test_options_and_progress(scene, result):
     views, _ = result
     stages = []
     mvs.estimate_depth_maps(
-        views, min_views=2, num_rounds=1, progress=lambda stage, share: stages.append(stage)
+        views, min_views=2, num_rounds=1, progress=lambda stage, fraction: stages.append(stage)
     )
     assert set(stages) == {"estimating depths"}
     small = mvs.prepare_views(*scene, max_size_px=60)

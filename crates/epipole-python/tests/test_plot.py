@@ -52,8 +52,8 @@ def test_disparity_leaves_nan_out_of_its_colors():
 
 
 def test_the_apex_of_a_camera_is_its_center():
-    turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
-    pose = np.column_stack([turned, -turned @ [1.0, 2, 3]])
+    rotated = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    pose = np.column_stack([rotated, -rotated @ [1.0, 2, 3]])
     ax = plot.cameras([pose], points=np.eye(3), size=1)
     apex = [line.get_data_3d() for line in ax.lines[:4]]
     assert all(np.allclose([x[0], y[0], z[0]], [1, 2, 3]) for x, y, z in apex)

@@ -118,12 +118,12 @@ def test_two_views(world, plane, outliers):
 
 
 def test_rotations(world):
-    turn = rotation([0, 1, 0], 0.1)
-    pixels2 = world.rays1 @ turn.T @ world.k.T
+    step = rotation([0, 1, 0], 0.1)
+    pixels2 = world.rays1 @ step.T @ world.k.T
     matches = (world.pixels1, pixels2[:, :2] / pixels2[:, 2:])
     cameras = (world.camera, world.camera)
     found = two_view.estimate_rotation(*matches, *cameras).model
-    np.testing.assert_allclose(found, turn, atol=1e-6)
+    np.testing.assert_allclose(found, step, atol=1e-6)
     all_inliers = np.ones(60, bool)
     explaining = two_view.find_explaining_rotation(*matches, *cameras, all_inliers)
     assert explaining.num_explained == 60

@@ -19,16 +19,16 @@ def long_work():
     return (pixels1, pixels2), {"max_iterations": 10**9, "min_iterations": 10**9}
 
 
-def test_callback_sees_stage_and_share(outliers):
-    seen = []
-    epipole.estimate_fundamental(*outliers, progress=lambda *status: seen.append(status))
-    assert seen and seen[0][0] == "drawing samples" and 0 <= seen[0][1] <= 1
+def test_callback_receives_stage_and_fraction(outliers):
+    reports = []
+    epipole.estimate_fundamental(*outliers, progress=lambda *status: reports.append(status))
+    assert reports and reports[0][0] == "drawing samples" and 0 <= reports[0][1] <= 1
 
 
 def test_exception_of_a_callback_stops_the_work(long_work):
     matches, options = long_work
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
@@ -66,7 +66,7 @@ def test_other_threads_run_meanwhile(long_work):
 
     start = time.perf_counter()
 
-    def watch(stage, share):
+    def watch(stage, fraction):
         if time.perf_counter() - start > 0.3:
             raise TimeoutError
 
@@ -117,7 +117,7 @@ def test_wrong_number_of_threads():
 
 
 def test_a_block_passes_exceptions(outliers):
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"), epipole.threads(2):

@@ -71,7 +71,7 @@ def test_notebooks_show_a_table(outliers):
     assert "&lt;bool array" in html or "[True" in html
 
 
-def test_notebooks_show_a_view_of_a_reconstruction_that_turns():
+def test_notebooks_show_a_rotating_view_of_a_reconstruction():
     intrinsics = epipole.Intrinsics(500, 500, 319.5, 239.5)
     camera = epipole.Camera.pinhole(intrinsics, 640, 480)
     posed = epipole.PosedCamera(camera, epipole.RigidTransform())

@@ -84,8 +84,8 @@ def test_lines(points):
 
 def test_similarity(points):
     angle, scale, shift = 0.3, 1.5, [4, -2]
-    turn = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    moved = points @ turn.T + shift
+    linear = scale * np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    moved = points @ linear.T + shift
     similarity = robust.fit_similarity(points, moved)
     assert similarity.scale() == pytest.approx(scale)
     assert similarity.angle_rad() == pytest.approx(angle)
@@ -93,7 +93,7 @@ def test_similarity(points):
     moved[20:] += 50
     report = robust.estimate_similarity(points, moved)
     assert report.num_inliers == 20
-    np.testing.assert_allclose(report.model.matrix()[:2, :2], turn, atol=1e-9)
+    np.testing.assert_allclose(report.model.matrix()[:2, :2], linear, atol=1e-9)
 
 
 def test_numbers_of_samples():

@@ -25,11 +25,11 @@ def make_problem(**options):
 
 def make_input(problem, reach=None):
     """Keypoints and matches of a problem, between images at most `reach` apart."""
-    seen = problem.observations
+    observed = problem.observations
     count = len(problem.cameras)
-    rows = [np.flatnonzero(seen.indices[:, 0] == camera) for camera in range(count)]
-    images = [SfmImage(f"{k}.jpg", seen.pixels[row]) for k, row in enumerate(rows)]
-    points = [seen.indices[row, 1] for row in rows]
+    rows = [np.flatnonzero(observed.indices[:, 0] == camera) for camera in range(count)]
+    images = [SfmImage(f"{k}.jpg", observed.pixels[row]) for k, row in enumerate(rows)]
+    points = [observed.indices[row, 1] for row in rows]
     pairs = []
     for i in range(count):
         for j in range(i + 1, count if reach is None else min(count, i + 1 + reach)):
@@ -39,8 +39,8 @@ def make_input(problem, reach=None):
 
 
 def make_bundle(problem):
-    seen = problem.observations
-    return sfm.Bundle(problem.cameras, problem.points, seen.indices, seen.pixels)
+    observed = problem.observations
+    return sfm.Bundle(problem.cameras, problem.points, observed.indices, observed.pixels)
 
 
 def centers(cameras):
@@ -71,8 +71,8 @@ def photos():
     texture = epipole.imaging.gray_to_u8((texture - texture.min()) / np.ptp(texture))
     k = np.array([[300.0, 0, 159.5], [0, 300.0, 119.5], [0, 0, 1]])
     list_of_photos, poses = [], []
-    for step, (turn, shift) in enumerate([(0.0, 0.0), (0.15, -0.5), (0.3, -1.0)]):
-        r = rotation([0, 1, 0], turn)
+    for step, (angle_rad, shift) in enumerate([(0.0, 0.0), (0.15, -0.5), (0.3, -1.0)]):
+        r = rotation([0, 1, 0], angle_rad)
         t = np.array([shift * 1.2, 0.02 * step, 0.1 * step])
         # Plane z = 3 with 100 texture pixels per unit, around (3, 2).
         plane = np.array([[0.01, 0, -3.0], [0, 0.01, -2.0], [0, 0, 3.0]])
@@ -130,10 +130,10 @@ def test_steps_of_a_reconstruction(input, result):
 
 def test_known_poses_give_points(problem, input):
     poses = [camera.cam_from_world for camera in problem.cameras]
-    shares = []
-    found = sfm.triangulate_tracks(input, poses, progress=lambda _, share: shares.append(share))
+    fractions = []
+    found = sfm.triangulate_tracks(input, poses, progress=lambda _, fraction: fractions.append(fraction))
     assert [camera.cam_from_world for camera in found.cameras] == poses
-    assert 0 < shares[0] <= 1 and len(found.points) > 140
+    assert 0 < fractions[0] <= 1 and len(found.points) > 140
     distances = np.linalg.norm(found.points[:, None] - problem.points[None], axis=2).min(axis=1)
     assert np.median(distances) < 0.02
     some = sfm.triangulate_tracks(input, [None, *poses[1:]], min_track_length=6)
@@ -145,8 +145,8 @@ def test_known_poses_give_points(problem, input):
 
 
 def test_unregistered_images_have_reasons(input):
-    lonely = SfmImage("lonely.jpg", np.random.default_rng(1).uniform(0, 400, (40, 2)))
-    more = SfmInput([*input.images, lonely], input.cameras, input.pairs)
+    isolated = SfmImage("isolated.jpg", np.random.default_rng(1).uniform(0, 400, (40, 2)))
+    more = SfmInput([*input.images, isolated], input.cameras, input.pairs)
     result = sfm.reconstruct(more)
     assert result.unregistered == [6] and result.components[0].cameras[6] is None
     (why,) = sfm.why_unregistered(more, result)
@@ -322,8 +322,8 @@ def test_stereo_odometry():
     camera = problem.cameras[0].camera
     right, matches = [], []
     for k, posed in enumerate(problem.cameras):
-        seen = problem.observations.indices
-        points = problem.points[seen[seen[:, 0] == k, 1]]
+        observed = problem.observations.indices
+        points = problem.points[observed[observed[:, 0] == k, 1]]
         pixels = camera.project(motion @ (posed.cam_from_world @ points))
         right.append(SfmImage(f"right{k}", pixels))
         matches.append(np.column_stack([np.arange(len(points))] * 2))
@@ -420,11 +420,11 @@ def test_pickles_are_equal(problem, input, result):
 
 
 def test_progress_and_cancellation(input):
-    seen = []
-    sfm.reconstruct(input, progress=lambda *status: seen.append(status))
-    assert seen[0][0] == "testing pairs" and all(0 <= share <= 1 for _, share in seen)
+    reports = []
+    sfm.reconstruct(input, progress=lambda *status: reports.append(status))
+    assert reports[0][0] == "testing pairs" and all(0 <= fraction <= 1 for _, fraction in reports)
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     for function in (sfm.reconstruct, sfm.monocular_odometry):

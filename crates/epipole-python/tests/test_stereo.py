@@ -142,11 +142,11 @@ def test_bad_arguments_are_named(call, error, message):
 
 @pytest.mark.parametrize("matcher", [stereo.StereoSgm(), stereo.StereoBm()])
 def test_progress_and_cancellation(pair, matcher):
-    seen = []
-    matcher.compute(*pair, progress=lambda *status: seen.append(status))
-    assert seen[0][0] == "matching along the rows" and 0 <= seen[0][1] <= 1
+    reports = []
+    matcher.compute(*pair, progress=lambda *status: reports.append(status))
+    assert reports[0][0] == "matching along the rows" and 0 <= reports[0][1] <= 1
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):
@@ -251,9 +251,9 @@ def test_rectified_pair(camera):
     pair = stereo.RectifiedPair(rectified, *photos)
     assert pair.num_shown == 160 * 120 and pair.rig == rectified
     np.testing.assert_array_equal(pair.pictures[0], photos[0])
-    sgm, seen = stereo.StereoSgm(num_disparities=16), []
-    disparity = pair.disparity(sgm, progress=lambda *status: seen.append(status))
-    assert seen and np.nanmedian(disparity) == pytest.approx(SHIFT, abs=0.1)
+    sgm, reports = stereo.StereoSgm(num_disparities=16), []
+    disparity = pair.disparity(sgm, progress=lambda *status: reports.append(status))
+    assert reports and np.nanmedian(disparity) == pytest.approx(SHIFT, abs=0.1)
     np.testing.assert_array_equal(pair.disparity(sgm.compute), disparity)
     filled = pair.filled(disparity)
     assert not np.isnan(filled).any()
@@ -262,7 +262,7 @@ def test_rectified_pair(camera):
         pair.disparity(lambda left, right: 1 / 0)
     with pytest.raises(ValueError, match="result of matching"):
         pair.disparity(lambda left, right: np.zeros((2, 2)))
-    with pytest.raises(ValueError, match="photograph2"):
+    with pytest.raises(ValueError, match="image2"):
         stereo.RectifiedPair(rectified, photos[0], photos[1][..., 0])
 
 

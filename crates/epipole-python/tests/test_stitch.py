@@ -10,14 +10,14 @@ import epipole
 from epipole import stitch
 
 K = np.array([[300.0, 0, 159.5], [0, 300.0, 119.5], [0, 0, 1]])
-TURNS = [0.0, 0.3, 0.6]
+ANGLES_RAD = [0.0, 0.3, 0.6]
 
 
 @pytest.fixture(scope="module")
 def matches():
     """Matches of neighbors, a quarter of them wrong, and the rotations."""
     random = np.random.default_rng(1)
-    rotations = [rotation([0, 1, 0], -turn) for turn in TURNS]
+    rotations = [rotation([0, 1, 0], -angle_rad) for angle_rad in ANGLES_RAD]
     pairs = []
     for i in range(2):
         relative = K @ rotations[i + 1] @ rotations[i].T @ np.linalg.inv(K)
@@ -70,8 +70,8 @@ def test_panorama_finds_the_rotations(matches, overlaps):
     assert panorama.scale_px == pytest.approx(300) and panorama.focal_factor is None
     guessed = stitch.estimate_panorama([k.zoomed(1.3)] * 3, overlaps, True)
     assert guessed.focal_factor == pytest.approx(1 / 1.3, rel=0.02)
-    lonely = stitch.estimate_panorama([k] * 4, overlaps)
-    assert lonely.pixel_from_direction[3] is None and lonely.pixel_from_direction[0].shape == (3, 3)
+    isolated = stitch.estimate_panorama([k] * 4, overlaps)
+    assert isolated.pixel_from_direction[3] is None and isolated.pixel_from_direction[0].shape == (3, 3)
 
 
 def test_panorama_is_rendered(overlaps, photos):
@@ -119,11 +119,11 @@ def test_pickles_are_equal(overlaps):
 def test_progress_and_cancellation(overlaps, photos):
     k = epipole.Intrinsics.from_matrix(K)
     panorama = stitch.estimate_panorama([k] * 3, overlaps)
-    seen = []
-    stitch.render_panorama(panorama, photos, progress=lambda *status: seen.append(status))
-    assert seen[0][0] == "blending"
+    reports = []
+    stitch.render_panorama(panorama, photos, progress=lambda *status: reports.append(status))
+    assert reports[0][0] == "blending"
 
-    def stop(stage, share):
+    def stop(stage, fraction):
         raise RuntimeError("enough")
 
     with pytest.raises(RuntimeError, match="enough"):

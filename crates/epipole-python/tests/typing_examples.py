@@ -18,7 +18,7 @@ assert_type(report, robust.RansacReport[Floats])
 assert_type(report.inliers, NDArray[np.bool_])
 assert_type(report.log10_false_alarms, float | None)
 assert_type(report.model, Floats)
-epipole.estimate_fundamental(pixels1, pixels2, progress=lambda stage, share: print(stage, share))
+epipole.estimate_fundamental(pixels1, pixels2, progress=lambda stage, fraction: print(stage, fraction))
 epipole.estimate_fundamental(pixels1, pixels2, max_eror_px=1)  # type: ignore[call-arg]
 epipole.estimate_fundamental(pixels1, pixels2, score="mac")  # type: ignore[arg-type]
 
@@ -40,8 +40,8 @@ assert_type(epipolar.epipoles(np.eye(3)), tuple[Floats, Floats])
 assert_type(epipolar.focal_lengths_from_fundamental(np.eye(3), [0, 0], [0, 0]), tuple[float, float])
 number: float = epipolar.sampson_px(np.eye(3), [0, 0], [1, 1])
 
-seen = (camera.PosedCamera(view, motion), camera.PosedCamera(view, motion))
-point = triangulation.triangulate_nview(seen, pixels1, loss={"huber": {"width": 1.0}})
+views = (camera.PosedCamera(view, motion), camera.PosedCamera(view, motion))
+point = triangulation.triangulate_nview(views, pixels1, loss={"huber": {"width": 1.0}})
 assert_type(point.rms_error_px, float)
 
 found = epipole.estimate_two_view(pixels1, pixels2, ransac={"seed": 3})

@@ -10,7 +10,7 @@ use epipole_scenes::{Sampling, Scene, still_life_camera};
 use nalgebra::{Point2, Translation3};
 use std::hint::black_box;
 
-fn photographs(criterion: &mut Criterion) {
+fn images(criterion: &mut Criterion) {
     let scene = Scene::still_life();
     let mut group = criterion.benchmark_group("photograph");
     group.sample_size(10);
@@ -60,5 +60,5 @@ fn two_cameras(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, photographs, line, two_cameras);
+criterion_group!(benches, images, line, two_cameras);
 criterion_main!(benches);

@@ -55,14 +55,14 @@ fn filters(criterion: &mut Criterion) {
 }
 
 fn features(criterion: &mut Criterion) {
-    let photograph = scene(800, 640);
+    let image = scene(800, 640);
     let mut group = criterion.benchmark_group("features");
     group.sample_size(10);
     group.bench_function("sift 800x640", |b| {
-        b.iter(|| detect_sift(black_box(&photograph), &SiftOptions::default(), &mut ()));
+        b.iter(|| detect_sift(black_box(&image), &SiftOptions::default(), &mut ()));
     });
     group.bench_function("orb 800x640", |b| {
-        b.iter(|| detect_orb(black_box(&photograph), &OrbOptions::default(), &mut ()));
+        b.iter(|| detect_orb(black_box(&image), &OrbOptions::default(), &mut ()));
     });
     let mut random = Random::new(2);
     let mut list = || -> Vec<u8> { (0..2048 * 128).map(|_| random.below(160) as u8).collect() };

@@ -23,8 +23,8 @@ fn pair() -> (GrayImage, GrayImage) {
     let at = |u: f64, v: u32| {
         let k = (u as usize).min(columns - 2);
         let row = v as usize * columns;
-        let share = u - k as f64;
-        (noise[row + k] * (1.0 - share) + noise[row + k + 1] * share) as u8
+        let fraction = u - k as f64;
+        (noise[row + k] * (1.0 - fraction) + noise[row + k + 1] * fraction) as u8
     };
     let left = GrayImage::from_fn(WIDTH, HEIGHT, |u, v| Luma([at(f64::from(u), v)]));
     let right = GrayImage::from_fn(WIDTH, HEIGHT, |u, v| {

@@ -26,13 +26,13 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         }
     } else {
         let k = Intrinsics::new(540.0, 541.0, 330.0, 236.0)?;
-        let turns = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.0]];
-        for turn in turns {
+        let rotations = [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.0]];
+        for rotation in rotations {
             let at = Vector3::new(-0.1, -0.06, 0.35);
-            let pose = RigidTransform::new(at, Vector3::from(turn));
+            let pose = RigidTransform::new(at, Vector3::from(rotation));
             let marks = (0..board.num_marks()).map(|mark| board.mark(mark));
-            let seen = |p: Point2<f64>| k.project(&(pose * Point3::new(p.x, p.y, 0.0))).ok();
-            let pixels = marks.map(seen).collect();
+            let project = |p: Point2<f64>| k.project(&(pose * Point3::new(p.x, p.y, 0.0))).ok();
+            let pixels = marks.map(project).collect();
             views.push(Some(BoardView { pixels }));
         }
     }

@@ -4,15 +4,15 @@
 
 mod common;
 
-use common::{gray, photograph};
+use common::{gray, render};
 use epipole::feature::{GoodFeaturesOptions, TrackOptions};
 use epipole::feature::{good_features_to_track, track_lucas_kanade};
 use epipole::prelude::*;
 
 pub(crate) fn run() -> Result<(), Error> {
     let step = RigidTransform::translation(-0.01, 0.0, 0.0);
-    let (camera, truth) = photograph(&RigidTransform::identity())?;
-    let (first, second) = (gray(&truth), gray(&photograph(&step)?.1));
+    let (camera, truth) = render(&RigidTransform::identity())?;
+    let (first, second) = (gray(&truth), gray(&render(&step)?.1));
     let options = GoodFeaturesOptions::default().with_max_corners(200);
     let corners: Vec<_> = good_features_to_track(&first, &options, &mut ())?
         .iter()
@@ -28,8 +28,8 @@ pub(crate) fn run() -> Result<(), Error> {
             .get_pixel(corner.x.round() as u32, corner.y.round() as u32)
             .0[0];
         let x_in_cam = Point3::from(camera.camera.intrinsics.ray(corner) * f64::from(depth_m));
-        let seen = camera.camera.intrinsics.project(&(step * x_in_cam))?;
-        errors.push((track.point - seen).norm());
+        let projected = camera.camera.intrinsics.project(&(step * x_in_cam))?;
+        errors.push((track.point - projected).norm());
     }
     errors.sort_by(f64::total_cmp);
     let median_px = errors[errors.len() / 2];

@@ -118,12 +118,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         camera: Camera::pinhole(k, 640, 480),
         cam_from_world: RigidTransform::identity(),
     };
-    let turn = Rotation3::new(Vector3::new(0.03, 0.12, -0.05));
+    let rotation = Rotation3::new(Vector3::new(0.03, 0.12, -0.05));
     let right = PosedCamera {
         camera: Camera::pinhole(k, 640, 480),
         cam_from_world: RigidTransform::from_parts(
             Vector3::new(-0.6, 0.1, 0.1).into(),
-            turn.into(),
+            rotation.into(),
         ),
     };
     let (p1, p2) = (left.projection_matrix(), right.projection_matrix());

@@ -42,8 +42,8 @@ impl Estimator for Circles {
 pub(crate) fn run() -> Result<(), Error> {
     let mut random = Random::new(1);
     let on_circle = |i: i32| {
-        let turn = epipole::nalgebra::Rotation2::new(0.1 * f64::from(i));
-        Point2::new(300.0, 200.0) + turn * Vector2::new(90.0, 0.0)
+        let rotation = epipole::nalgebra::Rotation2::new(0.1 * f64::from(i));
+        Point2::new(300.0, 200.0) + rotation * Vector2::new(90.0, 0.0)
     };
     let mut points: Vec<_> = (0..60).map(on_circle).collect();
     let anywhere = |_| Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));

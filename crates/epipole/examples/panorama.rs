@@ -4,14 +4,14 @@
 
 mod common;
 
-use common::{Outcome, SIZE, gray, matches, photograph};
+use common::{Outcome, SIZE, gray, matches, render};
 use epipole::imaging::{WarpOptions, gray_to_u8, warp_perspective};
 use epipole::prelude::*;
 
 pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
-    let turn = RigidTransform::rotation(Vector3::new(0.0, 0.2, 0.02));
-    let (camera, first) = photograph(&RigidTransform::identity())?;
-    let (first, second) = (gray(&first), gray(&photograph(&turn)?.1));
+    let rotation = RigidTransform::rotation(Vector3::new(0.0, 0.2, 0.02));
+    let (camera, first) = render(&RigidTransform::identity())?;
+    let (first, second) = (gray(&first), gray(&render(&rotation)?.1));
     let (pixels1, pixels2) = matches(&first, &second)?;
     // From the second photograph to the first, where the panorama is drawn.
     let found = estimate_homography(&pixels2, &pixels1, &RansacOptions::default(), &mut ())?;
@@ -21,7 +21,13 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
         camera.camera.intrinsics.matrix(),
         camera.camera.intrinsics.inverse_matrix(),
     );
-    let truth = k * turn.rotation.inverse().to_rotation_matrix().into_inner() * k_inverse;
+    let truth = k
+        * rotation
+            .rotation
+            .inverse()
+            .to_rotation_matrix()
+            .into_inner()
+        * k_inverse;
     for corner in [
         Point2::new(0.0, 0.0),
         Point2::new(0.0, 239.0),

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{SIZE, photograph};
+use common::{SIZE, render};
 use epipole::prelude::*;
 
 pub(crate) fn run() -> Result<(), Error> {
@@ -14,8 +14,8 @@ pub(crate) fn run() -> Result<(), Error> {
         Vector3::new(-0.06, 0.002, 0.0),
         Vector3::new(0.01, 0.03, -0.01),
     );
-    let (left, truth) = photograph(&RigidTransform::identity())?;
-    let (_, other) = photograph(&right_from_left)?;
+    let (left, truth) = render(&RigidTransform::identity())?;
+    let (_, other) = render(&right_from_left)?;
     let camera = Camera::pinhole(left.camera.intrinsics, SIZE.0, SIZE.1);
     let options = RectifyOptions::default();
     let rig = rectify_calibrated(&[camera; 2], &right_from_left, &options)?;

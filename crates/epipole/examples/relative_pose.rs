@@ -5,21 +5,21 @@
 
 mod common;
 
-use common::{Outcome, gray, photograph, read_gray};
+use common::{Outcome, gray, read_gray, render};
 use epipole::prelude::*;
 
 pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
-    let turn = Vector3::new(0.02, 0.17, 0.01);
+    let rotation_vector = Vector3::new(0.02, 0.17, 0.01);
     let (left, right, k) = if let [left, right, focal_px] = arguments {
         let image = read_gray(left)?;
         let k = Intrinsics::centered(focal_px.parse()?, image.width(), image.height())?;
         (image, read_gray(right)?, k)
     } else {
-        let step = RigidTransform::new(Vector3::new(-0.25, 0.02, 0.03), turn);
-        let (camera, first) = photograph(&RigidTransform::identity())?;
+        let step = RigidTransform::new(Vector3::new(-0.25, 0.02, 0.03), rotation_vector);
+        let (camera, first) = render(&RigidTransform::identity())?;
         (
             gray(&first),
-            gray(&photograph(&step)?.1),
+            gray(&render(&step)?.1),
             camera.camera.intrinsics,
         )
     };
@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &[String]) -> Outcome<()> {
     println!("turned by {:.2}°", motion.rotation.angle().to_degrees());
     println!("moved along {:.3}", motion.translation.vector.transpose());
     if arguments.is_empty() {
-        assert!((motion.rotation.angle() - turn.norm()).abs() < 0.01);
+        assert!((motion.rotation.angle() - rotation_vector.norm()).abs() < 0.01);
     }
     Ok(())
 }

@@ -16,11 +16,11 @@ pub enum Error {
         what: &'static str,
         /// Minimum sufficient number.
         needed: usize,
-        /// Actual number.
+        /// Number of data, with repetitions.
         got: usize,
     },
     /// Enough data, but too few distinct: repetitions count once.
-    #[error("{what} needs at least {needed} that differ, but {}", distinct(*.got, *.given))]
+    #[error("{what} needs at least {needed} that differ, but {}", distinct(*.got, *.total))]
     TooFewDistinct {
         /// Description of the computation, as in [`Error::TooFew`].
         what: &'static str,
@@ -28,8 +28,8 @@ pub enum Error {
         needed: usize,
         /// Number of distinct data.
         got: usize,
-        /// Actual number.
-        given: usize,
+        /// Number of data, with repetitions.
+        total: usize,
     },
     /// A NaN or an infinity among the inputs.
     #[error("{what} must be a finite number")]
@@ -98,10 +98,10 @@ impl Error {
     ///
     /// ```
     /// use epipole::Error;
-    /// let check = |share| Error::check_range("the share", "between 0 and 1", share, 0.0..=1.0);
+    /// let check = |fraction| Error::check_range("the fraction", "between 0 and 1", fraction, 0.0..=1.0);
     /// assert!(check(1.0).is_ok());
     /// let message = check(1.5).unwrap_err().to_string();
-    /// assert_eq!(message, "the share must be between 0 and 1, but is 1.5");
+    /// assert_eq!(message, "the fraction must be between 0 and 1, but is 1.5");
     /// ```
     pub fn check_range(
         what: &'static str,
@@ -151,10 +151,10 @@ fn only(count: usize) -> String {
 }
 
 /// Formats the counts for [`Error::TooFewDistinct`].
-fn distinct(count: usize, given: usize) -> String {
+fn distinct(count: usize, total: usize) -> String {
     match count {
-        1 => format!("the {given} given are equal"),
-        _ => format!("of the {given} given only {count} are distinct: the others repeat them"),
+        1 => format!("the {total} given are equal"),
+        _ => format!("of the {total} given only {count} are distinct: the others repeat them"),
     }
 }
 
@@ -202,7 +202,7 @@ mod tests {
                 what: "a fundamental matrix from matches",
                 needed: 7,
                 got,
-                given: 9,
+                total: 9,
             };
             let whole =
                 format!("a fundamental matrix from matches needs at least 7 that differ, {end}");

@@ -79,7 +79,7 @@ pub struct Status {
     /// Current stage.
     pub stage: Stage,
     /// Completed fraction of the whole work, over all stages, in [0, 1].
-    pub share: f32,
+    pub fraction: f32,
 }
 
 /// Observer of a long computation, which can cancel it.
@@ -89,7 +89,7 @@ pub struct Status {
 /// reports; a closure receives each [`Status`] and can return [`ControlFlow::Break`], so that the
 /// function returns [`Error::Canceled`].
 ///
-/// Reports are made on the caller's thread. The share never decreases.
+/// Reports are made on the caller's thread. The fraction never decreases.
 ///
 /// ```
 /// use epipole::progress::{Monitor, Part, Stage, Status, report};
@@ -102,20 +102,20 @@ pub struct Status {
 /// }
 /// assert_eq!(two_halves(&mut ()), Ok(()));
 ///
-/// let mut shares = Vec::new();
+/// let mut fractions = Vec::new();
 /// let mut watch = |status: Status| {
-///     shares.push(status.share);
+///     fractions.push(status.fraction);
 ///     ControlFlow::Continue(())
 /// };
 /// two_halves(&mut Part::new(&mut watch, 0.5, 1.0))?;
-/// assert_eq!(shares, [0.5, 0.75]);
+/// assert_eq!(fractions, [0.5, 0.75]);
 ///
 /// let canceled = two_halves(&mut |_| ControlFlow::Break(()));
 /// assert_eq!(canceled, Err(epipole::Error::Canceled));
 /// # Ok::<(), epipole::Error>(())
 /// ```
 pub trait Monitor {
-    /// Receives the current stage and the share of the work; [`ControlFlow::Break`] cancels it.
+    /// Receives the current stage and the fraction of the work; [`ControlFlow::Break`] cancels it.
     fn report(&mut self, status: Status) -> ControlFlow<()>;
 }
 
@@ -132,18 +132,18 @@ impl<F: FnMut(Status) -> ControlFlow<()>> Monitor for F {
     }
 }
 
-/// Reports `stage` and `share`, the completed fraction of the whole work in [0, 1], to `monitor`.
+/// Reports `stage` and `fraction`, the completed part of the whole work in [0, 1], to `monitor`.
 ///
 /// # Errors
 /// [`Error::Canceled`] if the monitor cancels.
-pub fn report(monitor: &mut dyn Monitor, stage: Stage, share: f32) -> Result<()> {
-    match monitor.report(Status { stage, share }) {
+pub fn report(monitor: &mut dyn Monitor, stage: Stage, fraction: f32) -> Result<()> {
+    match monitor.report(Status { stage, fraction }) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(Error::Canceled),
     }
 }
 
-/// Monitor of one part of a longer computation: maps the share of the part, 0 to 1, to the range
+/// Monitor of one part of a longer computation: maps the fraction of the part, 0 to 1, to the range
 /// `from` to `to` of the whole.
 ///
 /// See [`Monitor`] for an example.
@@ -177,7 +177,7 @@ impl Monitor for Part<'_> {
     fn report(&mut self, status: Status) -> ControlFlow<()> {
         self.monitor.report(Status {
             stage: self.stage.unwrap_or(status.stage),
-            share: self.from + (self.to - self.from) * status.share,
+            fraction: self.from + (self.to - self.from) * status.fraction,
         })
     }
 }
@@ -188,10 +188,10 @@ mod tests {
 
     #[test]
     fn parts_nest_and_pass_cancellation_on() {
-        let mut told = Vec::new();
+        let mut reports = Vec::new();
         let mut watch = |status: Status| {
-            told.push(status);
-            match told.len() {
+            reports.push(status);
+            match reports.len() {
                 2 => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
             }
@@ -202,7 +202,7 @@ mod tests {
         let end = report(&mut quarter, Stage::PoseGraph, 1.0);
         assert_eq!(end, Err(Error::Canceled));
         let stage = Stage::Registration;
-        let expected = [0.5, 0.75].map(|share| Status { stage, share });
-        assert_eq!(told, expected);
+        let expected = [0.5, 0.75].map(|fraction| Status { stage, fraction });
+        assert_eq!(reports, expected);
     }
 }

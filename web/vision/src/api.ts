@@ -494,7 +494,7 @@ export interface FoundBoard {
   /** Pixel of each mark, row by row, interleaved; NaN for hidden marks. Null without a board. */
   pixels: Float64Array | null;
   /** Number of marks seen. */
-  numSeen: number;
+  numVisible: number;
   /** Why the board was not found, as a sentence; null if it was. */
   problem: string | null;
 }
@@ -1078,7 +1078,7 @@ export interface RansacReport<M> {
   /** Reason for the end of the loop. */
   stop: "confident" | "exhausted" | "interrupted";
   /** Whether random data might show as much support. */
-  couldBeChance: boolean;
+  couldBeRandom: boolean;
 }
 
 /** Cameras and points in one frame. */

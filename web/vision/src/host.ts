@@ -5,7 +5,7 @@ import { PARTS } from "./parts.js";
 import type { Bindings } from "./source.js";
 
 /** Callback with stage and fraction done; cancels by returning false. */
-export type Report = (stage: string, share: number) => boolean;
+export type Report = (stage: string, fraction: number) => boolean;
 
 /** A part with its functions. */
 export interface Loaded {

@@ -84,7 +84,7 @@ for (const [name, [part, ...parameters]] of Object.entries(FUNCTIONS)) {
     if (progress !== undefined && typeof progress !== "function") {
       throw new TypeError("options.progress must be a function");
     }
-    const control = { signal, progress: progress as ((stage: string, share: number) => void) | undefined };
+    const control = { signal, progress: progress as ((stage: string, fraction: number) => void) | undefined };
     return runner.run({ part, name, given: given.map((value, index) => (index === at ? rest : value)), ...control });
   };
   Object.defineProperty(Vision.prototype, name, { value, writable: true, configurable: true });

@@ -15,6 +15,6 @@ export interface Call {
 
 /** Progress, a result or an error. */
 export type Answer =
-  | { id: number; stage: string; share: number }
+  | { id: number; stage: string; fraction: number }
   | { id: number; result: unknown }
   | { id: number; fault: Fault };

@@ -11,7 +11,7 @@ export interface Job {
   name?: string;
   given: readonly unknown[];
   signal?: AbortSignal | undefined;
-  progress?: ((stage: string, share: number) => void) | undefined;
+  progress?: ((stage: string, fraction: number) => void) | undefined;
 }
 
 export interface Runner {
@@ -101,7 +101,7 @@ export class WorkerRunner implements Runner {
     if (job === undefined || answer.id !== job.id) return;
     if ("stage" in answer) {
       try {
-        job.progress?.(answer.stage, answer.share);
+        job.progress?.(answer.stage, answer.fraction);
       } catch (problem) {
         this.#end(problem);
       }

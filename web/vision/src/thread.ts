@@ -15,9 +15,9 @@ export class ThreadRunner implements Runner {
     signal?.throwIfAborted();
     if (name === undefined) return undefined;
     const thrown: unknown[] = [];
-    const report: Report = (stage, share) => {
+    const report: Report = (stage, fraction) => {
       try {
-        progress?.(stage, share);
+        progress?.(stage, fraction);
       } catch (problem) {
         thrown.push(problem);
       }

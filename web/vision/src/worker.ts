@@ -11,8 +11,8 @@ async function answer({ id, part, name, given, reports }: Call, post: Post): Pro
       post({ id, result: undefined }, []);
       return;
     }
-    const report = (stage: string, share: number) => {
-      post({ id, stage, share }, []);
+    const report = (stage: string, fraction: number) => {
+      post({ id, stage, fraction }, []);
       return true;
     };
     const result = callPart(loaded, name, given, reports ? report : undefined);

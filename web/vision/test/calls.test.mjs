@@ -348,8 +348,8 @@ for (const worker of [false, true]) {
     for (const [x, y] of [[0.28, 0], [-0.28, 0], [0, 0.28], [0, -0.28]]) {
       const pose = { quaternion: [0.96, x, y, 0], translation: [-0.09 + 0.1 * y, -0.06, 0.35] };
       const photo = await vision.renderBoard(board, camera, pose);
-      const { pixels, numSeen, problem } = await vision.findBoard(photo, board);
-      assert.deepEqual([numSeen, problem], [35, null]);
+      const { pixels, numVisible, problem } = await vision.findBoard(photo, board);
+      assert.deepEqual([numVisible, problem], [35, null]);
       views.push(pixels);
     }
     const found = await vision.calibrate(board, [...views, null], 320, 240);
@@ -441,10 +441,10 @@ for (const worker of [false, true]) {
     const slow = { minIterations: 20000, maxIterations: 20000 };
     const estimate = (options) => vision.estimateFundamental(world.pixels1, world.pixels2, { ...slow, ...options });
     const seen = [];
-    await estimate({ progress: (stage, share) => seen.push([stage, share]) });
+    await estimate({ progress: (stage, fraction) => seen.push([stage, fraction]) });
     assert.ok(seen.length > 2, `${seen.length} reports`);
     assert.ok(seen.every(([stage]) => stage === "drawing samples"));
-    assert.ok(seen.every(([, share], index) => share >= (seen[index - 1]?.[1] ?? 0) && share <= 1));
+    assert.ok(seen.every(([, fraction], index) => fraction >= (seen[index - 1]?.[1] ?? 0) && fraction <= 1));
     const controller = new AbortController();
     const start = performance.now();
     await assert.rejects(estimate({ signal: controller.signal, progress: () => controller.abort() }), { name: "AbortError" });

@@ -34,7 +34,7 @@ const report: RansacReport<Float64Array> = await vision.estimateHomography(pixel
   maxErrorPx: 2,
   sampler: "prosac",
   signal: AbortSignal.timeout(100),
-  progress: (stage, share) => console.log(stage.length, share.toFixed(2)),
+  progress: (stage, fraction) => console.log(stage.length, fraction.toFixed(2)),
 });
 const world = await vision.twoViewProblem({ structure: { plane: { halfSideM: 1 } } });
 const pose = await vision.estimateRelativePose(world.pixels1, world.pixels2, world.camera1.camera, world.camera2.camera);

@@ -2,7 +2,7 @@
 
 mod search;
 
-use self::search::{Photographs, search};
+use self::search::{SearchedPhotos, search};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::lens::Model;
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let right_photos = arguments.listing.photos(&arguments.right, context)?;
     if !right_photos.is_empty() && right_photos.len() != left_photos.len() {
         return Err(Failure::usage(format!(
-            "--right needs as many photographs as there are left ones, but there are {} and {}",
+            "--right needs as many images as there are left ones, but there are {} and {}",
             right_photos.len(),
             left_photos.len()
         )));
@@ -109,17 +109,17 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         let rig = calibrate_rig(
             &board,
             &both,
-            &left.photographs.views,
-            &right.photographs.views,
+            &left.searched.views,
+            &right.searched.views,
             &mut (),
         )?;
         cameras = Cameras::of_rig(both, rig.right_from_left);
         warnings.extend(right.warnings("right camera: "));
-        let alone_px = left.found.rms_px.max(right.found.rms_px);
-        if rig.rms_px > MUCH_WORSE * alone_px.max(LEAST_ERROR_PX) {
+        let single_px = left.found.rms_px.max(right.found.rms_px);
+        if rig.rms_px > MUCH_WORSE * single_px.max(LEAST_ERROR_PX) {
             warnings.push(format!(
-                "the two cameras do not agree: {:.2} px together, where each alone has at most {alone_px:.2} px. Are the \
-                 photographs of equal moments and in equal order, and did nothing move between the cameras?",
+                "the two cameras do not agree: {:.2} px together, where each alone has at most {single_px:.2} px. Are the \
+                 images of equal moments and in equal order, and did nothing move between the cameras?",
                 rig.rms_px
             ));
         }
@@ -166,7 +166,7 @@ fn format_of(path: &Path) -> Result<CameraFormat, Failure> {
 
 /// One camera with its photos.
 struct Side {
-    photographs: Photographs,
+    searched: SearchedPhotos,
     found: Calibration,
 }
 
@@ -178,26 +178,26 @@ impl Side {
         options: &CalibrationOptions,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let photographs = search(photos, arguments.reading, board, context)?;
+        let searched = search(photos, arguments.reading, board, context)?;
         let progress = Progress::new(context, "calibration");
-        let (views, size) = (&photographs.views, photographs.size);
+        let (views, size) = (&searched.views, searched.size);
         let mut watch = |status| progress.show(status);
         let found = calibrate(board, views, size, options, &mut watch);
         drop(progress);
         let found = found.map_err(|error| {
             let failure = Failure::from(error);
             // The failed views explain why there are too few.
-            let message = match photographs.problems.iter().flatten().next() {
+            let message = match searched.problems.iter().flatten().next() {
                 Some(problem) => format!("{}; {problem}", failure.message),
                 None if failure.kind == "too-few" => format!(
-                    "{}: ten to twenty do well, the board turned by 30° to 45°, another way in each",
+                    "{}: ten to twenty do well, the board tilted by 30° to 45°, another way in each",
                     failure.message
                 ),
                 None => failure.message,
             };
             Failure::new(failure.kind, message)
         })?;
-        Ok(Self { photographs, found })
+        Ok(Self { searched, found })
     }
 
     fn fields(&self) -> Map<String, Value> {
@@ -212,7 +212,7 @@ impl Side {
         fields.insert("coverage".to_owned(), json!(found.coverage));
         let mut views = Vec::new();
         for (index, view) in found.views.iter().enumerate() {
-            let name = &self.photographs.names[index];
+            let name = &self.searched.names[index];
             views.push(match view {
                 Some(view) => json!({
                     "name": name,
@@ -224,7 +224,7 @@ impl Side {
                 None => json!({
                     "name": name,
                     "found": false,
-                    "problem": self.photographs.problems[index],
+                    "problem": self.searched.problems[index],
                 }),
             });
         }
@@ -267,10 +267,10 @@ impl Side {
     }
 
     fn warnings(&self, whose: &str) -> Vec<String> {
-        let problems = self.photographs.problems.iter().flatten().cloned();
-        let told = self.found.warnings.iter().map(ToString::to_string);
+        let problems = self.searched.problems.iter().flatten().cloned();
+        let sentences = self.found.warnings.iter().map(ToString::to_string);
         problems
-            .chain(told)
+            .chain(sentences)
             .map(|w| format!("{whose}{w}"))
             .collect()
     }

@@ -6,8 +6,10 @@ use crate::match_file;
 use crate::matrices::{Motion, direction, intrinsics, row_major};
 use crate::report::Report;
 use crate::robust::{RobustArguments, stop_word, threshold_words};
-use crate::turn::{self, find_turn, if_unmoved, left_open, left_open_by_homography};
-use crate::units::{warn_of_shares, warn_of_units};
+use crate::rotation_only::{
+    self, find_rotation_only, if_unmoved, left_open, left_open_by_homography,
+};
+use crate::units::{warn_of_fractions, warn_of_units};
 use clap::{Args, ValueEnum};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
@@ -44,7 +46,7 @@ enum Model {
     JSON: model (9 numbers row by row; for a line 3: a, b, c), inliers (1 or 0 for each row),\n\
     num_inliers, iterations (samples drawn), required_iterations (samples required for this inlier\n\
     ratio; null if no number is enough), stop (confident; exhausted: by --max-iterations; canceled: by\n\
-    Ctrl-C), could_be_chance (whether random data would have as many inliers), max_error_px (as given,\n\
+    Ctrl-C), could_be_random (whether random data would have as many inliers), max_error_px (as given,\n\
     or as found by auto), mean_error_px (of the inliers), num_left_out (rows beyond 10⁹ pixels), for\n\
     homography and fundamental not_determined (a sentence if the inliers show no motion, or for\n\
     fundamental a plane or a rotation; else null), and for essential cam2_from_cam1 (rotation and\n\
@@ -86,7 +88,7 @@ struct Found {
     iterations: usize,
     required_iterations: u64,
     stop: StopReason,
-    could_be_chance: bool,
+    could_be_random: bool,
     num_left_out: usize,
     /// For F and H: the part that the inliers do not determine, if any.
     not_determined: Option<Option<String>>,
@@ -109,7 +111,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     if arguments.k.is_none() {
         let max_error_px = arguments.robust.options(context).max_error_px;
-        warn_of_shares(&[&pixels1, &pixels2], max_error_px, context);
+        warn_of_fractions(&[&pixels1, &pixels2], max_error_px, context);
     }
     let found = fit(arguments, context, &pixels1, &pixels2)
         .map_err(|failure| with_left_out(failure, arguments.model, [&pixels1, &pixels2]))?;
@@ -151,7 +153,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             (found.required_iterations != u64::MAX).then_some(found.required_iterations),
         )
         .field("stop", stop_word(found.stop))
-        .field("could_be_chance", found.could_be_chance)
+        .field("could_be_random", found.could_be_random)
         .field("max_error_px", found.max_error_px)
         .field("mean_error_px", mean_error_px)
         .field("num_left_out", found.num_left_out);
@@ -223,7 +225,7 @@ fn fit(
                 &found.inliers,
                 &robust.options(context).within(found.max_error_px),
             )?;
-            Ok(told(of_matrix(found, &h, errors), open, context))
+            Ok(with_degeneracy(of_matrix(found, &h, errors), open, context))
         }
         Model::Fundamental => {
             let found = robust.run(FundamentalEstimator::new(set()?)?, context)?;
@@ -235,7 +237,7 @@ fn fit(
                 &found.inliers,
                 &robust.options(context).within(found.max_error_px),
             )?;
-            Ok(told(of_matrix(found, &f, errors), open, context))
+            Ok(with_degeneracy(of_matrix(found, &f, errors), open, context))
         }
         Model::Essential => {
             let k1 = arguments
@@ -264,13 +266,14 @@ fn fit(
             let f = pose.fundamental(&k1, &k2)?;
             let errors = pairs().map(|(a, b)| sampson_px(&f, a, b)).collect();
             let ransac = robust.options(context).within(found.max_error_px);
-            let turn = find_turn(pixels1, pixels2, cameras, &found.inliers, &ransac)?;
-            if let (Some(turn), false) = (&turn, found.could_be_chance()) {
-                context.warn(&turn::sentence(turn));
+            let rotation_only =
+                find_rotation_only(pixels1, pixels2, cameras, &found.inliers, &ransac)?;
+            if let (Some(rotation_only), false) = (&rotation_only, found.could_be_random()) {
+                context.warn(&rotation_only::sentence(rotation_only));
             }
             Ok(Found {
                 cam2_from_cam1: Some(pose.cam2_from_cam1()),
-                could_be_rotation: Some(turn.is_some()),
+                could_be_rotation: Some(rotation_only.is_some()),
                 ..of_matrix(found, &pose.essential(), errors)
             })
         }
@@ -285,8 +288,8 @@ fn fit(
 }
 
 /// Records what the inliers do not determine, and warns of it if they are significant.
-fn told(found: Found, open: Option<String>, context: &Context) -> Found {
-    if let (Some(sentence), false) = (&open, found.could_be_chance) {
+fn with_degeneracy(found: Found, open: Option<String>, context: &Context) -> Found {
+    if let (Some(sentence), false) = (&open, found.could_be_random) {
         context.warn(sentence);
     }
     Found {
@@ -302,7 +305,7 @@ fn of_matrix<M>(report: RansacReport<M>, matrix: &Matrix3<f64>, errors_px: Vec<f
 fn of_report<M>(report: RansacReport<M>, model: Vec<f64>, errors_px: Vec<f64>) -> Found {
     Found {
         model,
-        could_be_chance: report.could_be_chance(),
+        could_be_random: report.could_be_random(),
         num_left_out: report.num_left_out,
         not_determined: None,
         max_error_px: report.max_error_px,

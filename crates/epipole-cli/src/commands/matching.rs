@@ -79,9 +79,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .collect();
     let nums_keypoints = format!("{} and {}", found1.keypoints.len(), found2.keypoints.len());
     report = report.row("keypoints", nums_keypoints);
-    if arguments.camera.is_given() {
+    if arguments.camera.is_set() {
         let cameras = CameraArguments::default();
-        let mut nums_seen = Vec::new();
+        let mut nums_visible = Vec::new();
         for (name, photo, found) in [
             ("rays1", &photos[0], &found1),
             ("rays2", &photos[1], &found2),
@@ -93,12 +93,17 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             let pixels = found.keypoints.iter().map(|keypoint| keypoint.point());
             let camera = photo.camera(k);
             let rays: Vec<Option<[f64; 3]>> = pixels
-                .map(|pixel| camera.observe(&pixel).ok().map(|seen| seen.ray().into()))
+                .map(|pixel| {
+                    camera
+                        .observe(&pixel)
+                        .ok()
+                        .map(|observation| observation.ray().into())
+                })
                 .collect();
-            nums_seen.push(rays.iter().flatten().count().to_string());
+            nums_visible.push(rays.iter().flatten().count().to_string());
             report = report.field(name, rays);
         }
-        report = report.row("seen by the lens", nums_seen.join(" and "));
+        report = report.row("seen by the lens", nums_visible.join(" and "));
     }
     Ok(report
         .field(

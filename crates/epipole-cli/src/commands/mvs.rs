@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     {
         files.push(output.write(name, &bytes)?);
     }
-    for file in undistorted(&views, &name).to_files(ModelFormat::ColmapText)? {
+    for file in model_of_views(&views, &name).to_files(ModelFormat::ColmapText)? {
         output.write(&format!("sparse/{}", file.name), &file.bytes)?;
     }
     for (view, map) in views.iter().zip(&maps) {
@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
 }
 
 /// Returns the cameras of the depth maps as a model without points.
-fn undistorted<'a>(views: &[MvsView], name: &dyn Fn(&MvsView) -> &'a str) -> Model {
+fn model_of_views<'a>(views: &[MvsView], name: &dyn Fn(&MvsView) -> &'a str) -> Model {
     let mut model = Model::default();
     for (index, view) in views.iter().enumerate() {
         model.cameras.push(view.camera.camera);

@@ -7,11 +7,11 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments};
 use crate::interrupt;
-use crate::known_camera::tell_of_unseen;
+use crate::known_camera::check_visible_part;
 use crate::lens;
 use crate::listing::{Listed, ListingArguments};
 use crate::matrices::{Motion, positive};
-use crate::photo::{KeptLens, Photo};
+use crate::photo::{Photo, RetainedLens};
 use crate::progress::Progress;
 use crate::reading::SizeArguments;
 use crate::report::Report;
@@ -132,7 +132,7 @@ struct Frames {
     camera: Camera,
     /// The guessed focal length, unless one is given.
     guess: Option<Guess>,
-    lens: Option<KeptLens>,
+    lens: Option<RetainedLens>,
 }
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
@@ -218,8 +218,8 @@ impl Work<'_> {
         let guesses = frames.guess.as_slice();
         let options = (self.arguments).options(self.context, some_unknown(guesses));
         let refined = &self.arguments.refined;
-        refined.tell_of_nothing_to_refine(&[frames.camera], self.context);
-        if refined.is_given() && !options.final_adjustment {
+        refined.warn_of_nothing_to_refine(&[frames.camera], self.context);
+        if refined.is_set() && !options.final_adjustment {
             self.context.warn(
                 "with --final-adjustment=false no lens parameter is refined: that is done with all frames at the end",
             );
@@ -238,7 +238,7 @@ impl Work<'_> {
         let first = listed.first().map(|one| one.path.as_path());
         let camera = file.map(|file| lens::read(file, first)).transpose()?;
         if let Some(camera) = &camera {
-            tell_of_unseen(camera, self.context)?;
+            check_visible_part(camera, self.context)?;
         }
         let mut frames: Option<Frames> = None;
         for (index, Listed { path, name }) in listed.iter().enumerate() {
@@ -276,9 +276,9 @@ impl Work<'_> {
                 image: photo.color,
                 ..SfmPhoto::default()
             };
-            let share = |done: usize| DETECTED * done as f32 / listed.len() as f32;
+            let fraction = |done: usize| DETECTED * done as f32 / listed.len() as f32;
             let watch = &mut |status| self.progress.show(status);
-            let mut part = Part::new(watch, share(index), share(index + 1));
+            let mut part = Part::new(watch, fraction(index), fraction(index + 1));
             (frames.features).push(photo_features(&photo, &self.options, &mut part)?);
         }
         frames.ok_or_else(|| Failure::new("too-few", "a path needs frames"))
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_said_is_the_default_of_the_core() {
+    fn omitted_options_have_the_defaults_of_the_core() {
         let arguments = All::try_parse_from(["epipole", "frames"])
             .unwrap()
             .arguments;
@@ -431,10 +431,10 @@ mod tests {
             quiet: true,
             seed: OdometryOptions::default().sfm.seed,
         };
-        let (said, core) = (
+        let (parsed, core) = (
             arguments.options(&context, false),
             OdometryOptions::default(),
         );
-        assert_eq!(format!("{said:?}"), format!("{core:?}"));
+        assert_eq!(format!("{parsed:?}"), format!("{core:?}"));
     }
 }

@@ -7,12 +7,12 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::features::{FeatureArguments, MatchArguments, matched_pixels};
 use crate::known_camera::{CameraFile, known_cameras, warn_of_unseen};
-use crate::matrices::{positive, row_major, share, size};
+use crate::matrices::{fraction, positive, row_major, size};
 use crate::photo::{Photo, check_same_size};
 use crate::reading::ReadArguments;
 use crate::report::Report;
 use crate::robust::RobustArguments;
-use crate::turn::{self, find_turn, left_open};
+use crate::rotation_only::{self, find_rotation_only, left_open};
 use crate::{files, interrupt, picture};
 use clap::Args;
 use epipole::camera::{Camera, RigidTransform};
@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     baseline_m: f64,
     /// Zoom from 0 (every pixel of the results is valid) to 1 (every pixel of the images is
     /// visible).
-    #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "RATIO", value_parser = share)]
+    #[arg(long, default_value_t = RectifyOptions::default().alpha, value_name = "RATIO", value_parser = fraction)]
     alpha: f64,
     /// Size of the results [default: that of the images]. Like --alpha, it needs known intrinsics.
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -99,7 +99,7 @@ impl Arguments {
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
     let shaped = arguments.alpha != 0.0 || arguments.size.is_some() || arguments.free_infinity;
-    let is_known = arguments.camera.is_given() || arguments.known.is_given();
+    let is_known = arguments.camera.is_set() || arguments.known.is_set();
     if shaped && !is_known && arguments.rig.is_none() {
         return Err(Failure::usage(
             "--alpha, --size and --free-infinity need known intrinsics: give --rig, --camera, --k or --focal-px",
@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
             let paths = [&*arguments.first, &*arguments.second];
             let (photos, cameras, right_from_left) =
                 rig::read(file, paths, arguments.reading, context)?;
-            let found = calibrated(arguments, &cameras, &right_from_left, None, context)?;
+            let found = rectify_known_pair(arguments, &cameras, &right_from_left, None, context)?;
             (photos, found, None)
         }
         None => by_matches(arguments, context)?,
@@ -171,13 +171,13 @@ fn rectify(
     pixels2: &[Point2<f64>],
 ) -> Result<Found, Failure> {
     let (width, height) = photos[0].color.dimensions();
-    let cameras = if arguments.known.is_given() {
+    let cameras = if arguments.known.is_set() {
         let cameras = known_cameras(&arguments.camera, context, photos)?;
         warn_of_unseen(cameras.each_ref(), [pixels1, pixels2], context);
         Some(cameras)
     } else {
-        let given = arguments.camera.given(photos)?;
-        given.map(|[k1, k2]| [photos[0].camera(k1), photos[1].camera(k2)])
+        let explicit = arguments.camera.explicit(photos)?;
+        explicit.map(|[k1, k2]| [photos[0].camera(k1), photos[1].camera(k2)])
     };
     if let Some(cameras) = cameras {
         let both = cameras.each_ref();
@@ -185,13 +185,15 @@ fn rectify(
             estimate_relative_pose(pixels1, pixels2, both, options, monitor)
         })?;
         let ransac = (arguments.robust.options(context)).within(report.max_error_px);
-        if let Some(turn) = find_turn(pixels1, pixels2, both, &report.inliers, &ransac)? {
-            context.warn(&turn::sentence(&turn));
+        if let Some(rotation_only) =
+            find_rotation_only(pixels1, pixels2, both, &report.inliers, &ransac)?
+        {
+            context.warn(&rotation_only::sentence(&rotation_only));
         }
         let rotation = UnitQuaternion::from_matrix(&report.model.rotation);
         let translation = Translation3::from(report.model.direction * arguments.baseline_m);
         let cam2_from_cam1 = RigidTransform::from_parts(translation, rotation);
-        return calibrated(
+        return rectify_known_pair(
             arguments,
             &cameras,
             &cam2_from_cam1,
@@ -206,11 +208,11 @@ fn rectify(
         context.warn(&open);
     }
     let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-        let kept = pixels
+        let selected = pixels
             .iter()
             .zip(&report.inliers)
             .filter(|(_, is_inlier)| **is_inlier);
-        kept.map(|(pixel, _)| *pixel).collect()
+        selected.map(|(pixel, _)| *pixel).collect()
     };
     let rectification = rectify_uncalibrated(
         &report.model,
@@ -233,7 +235,7 @@ fn rectify(
 }
 
 /// Rectifies two known cameras.
-fn calibrated(
+fn rectify_known_pair(
     arguments: &Arguments,
     cameras: &[Camera; 2],
     cam2_from_cam1: &RigidTransform,

@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let positions = arguments.positions.give(&mut photos, &places)?;
     (arguments.growth).number_lenses(&mut photos, &cameras, &lenses);
-    (arguments.growth.refined).tell_of_nothing_to_refine(&cameras, context);
+    (arguments.growth.refined).warn_of_nothing_to_refine(&cameras, context);
     let options = (arguments.growth).options(&arguments.robust, context, some_unknown(&guesses));
     let refine_focal = options.refine_focal;
     if let Some(sentence) = sentence(&guesses) {
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         cameras,
         pairs,
     };
-    let mut result = grown(&input, &options, &mut Part::new(watch, MATCHED, REFINED))?;
+    let mut result = reconstruct(&input, &options, &mut Part::new(watch, MATCHED, REFINED))?;
     let all_unknown = guesses.len() == photos.len();
     let mut errors_before_px = vec![None; result.components.len()];
     if (arguments.growth.refined).corrects_lenses(all_unknown) && result.is_complete {
@@ -91,7 +91,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     if !result.is_complete {
         context.warn(interrupt::ENDED_EARLY);
     }
-    let unregistered = unregistered(&input, &options, &result)?;
+    let unregistered = explain_unregistered(&input, &options, &result)?;
     let mean_px = largest.mean_reprojection_px(&input.images);
     let registered = images_json(&input.images, largest);
     if let Some(pictures) = &pictures {
@@ -113,9 +113,9 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .collect();
     let registered_count = largest.num_registered();
     let focals: Vec<(f64, f64)> = (input.cameras.iter().zip(&largest.cameras))
-        .filter_map(|(given, found)| {
+        .filter_map(|(initial, found)| {
             let focal_px = |camera: &Camera| camera.intrinsics.fu_px();
-            Some((focal_px(given), focal_px(&found.as_ref()?.camera)))
+            Some((focal_px(initial), focal_px(&found.as_ref()?.camera)))
         })
         .collect();
     let mut report = Report::default();
@@ -200,7 +200,7 @@ const MATCHED: f32 = 0.6;
 const REFINED: f32 = 0.95;
 
 /// Reconstructs; Ctrl-C ends with the result so far.
-fn grown(
+fn reconstruct(
     input: &SfmInput,
     options: &SfmOptions,
     monitor: &mut dyn Monitor,
@@ -237,7 +237,7 @@ fn no_start(
     Ok(Failure::new("no-consensus", message))
 }
 
-fn unregistered(
+fn explain_unregistered(
     input: &SfmInput,
     options: &SfmOptions,
     result: &SfmResult,

@@ -99,8 +99,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     };
     let disparities = arguments.disparities()?;
     match arguments.method {
-        Method::Sgm => arguments.bm.check_silent()?,
-        Method::Bm => arguments.sgm.check_silent()?,
+        Method::Sgm => arguments.bm.check_unused()?,
+        Method::Bm => arguments.sgm.check_unused()?,
     }
     let photos = [
         Photo::prepared(&arguments.left, arguments.reading, None, context)?,

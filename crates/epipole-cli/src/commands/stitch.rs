@@ -37,8 +37,8 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     files::write(&arguments.output, &encode(&whole)?)?;
 
     let (width, height) = whole.dimensions();
-    let is_turned = panorama.rotations.iter().any(Option::is_some);
-    let focal_px = is_turned.then_some(panorama.scale_px);
+    let has_rotations = panorama.rotations.iter().any(Option::is_some);
+    let focal_px = has_rotations.then_some(panorama.scale_px);
     let num_stitched = panorama.pixel_from_direction.iter().flatten().count();
     let file = arguments.output.display().to_string();
     let mut report = Report::default()

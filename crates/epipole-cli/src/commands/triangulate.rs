@@ -67,7 +67,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
     let found = judge::triangulate(&cameras, &pixels)
         .map_err(|failure| failure.about(&arguments.matches))?;
     let summary = Summary::new(&cameras, &found);
-    judge::tell(&summary, &cameras, &pixels, context);
+    judge::warn(&summary, &cameras, &pixels, context);
     let points: Vec<Option<Point>> = found.into_iter().map(Result::ok).collect();
     let mut files = Vec::new();
     let mut report = Report::default();

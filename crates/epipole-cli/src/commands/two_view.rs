@@ -20,10 +20,10 @@ use crate::robust::threshold_words;
 
 pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Failure> {
     arguments.camera.check()?;
-    if arguments.known.is_given() && arguments.model == Model::Fundamental {
+    if arguments.known.is_set() && arguments.model == Model::Fundamental {
         return Err(Failure::usage(
             "with --camera there is no fundamental matrix, which knows no lens: give --model auto, essential or \
-             homography, or what epipole undistort makes of the photographs",
+             homography, or what epipole undistort makes of the images",
         ));
     }
     let Input {
@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         pixels: [pixels1, pixels2],
         nums_keypoints,
     } = Input::read(arguments, context)?;
-    if arguments.model == Model::Fundamental && arguments.camera.is_given() {
+    if arguments.model == Model::Fundamental && arguments.camera.is_set() {
         context
             .warn("--k, --k2 and --focal-px make no difference here: this model needs pixels only");
     }
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         .field("model", row_major(&found.model))
         .field(
             "model_of",
-            match arguments.known.is_given() || found.kind == "essential" {
+            match arguments.known.is_set() || found.kind == "essential" {
                 true => "rays",
                 false => "pixels",
             },

@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
         let target = arguments.output.join(&one.name).with_extension("png");
         if targets.contains(&target) {
             return Err(Failure::usage(format!(
-                "two photographs would be written to {}",
+                "two images would be written to {}",
                 target.display()
             )));
         }
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &Arguments, context: &Context) -> Result<Report, Fa
                 false => "",
             };
             let message = format!(
-                "the photograph is {width} × {height}, but the camera was calibrated for {} × {}{upright}",
+                "the image is {width} × {height}, but the camera was calibrated for {} × {}{upright}",
                 camera.width, camera.height
             );
             return Err(Failure::new("size-mismatch", message).about(path));

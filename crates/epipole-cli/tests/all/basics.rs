@@ -10,7 +10,7 @@ use std::path::PathBuf;
 fn photo(folder: &Folder, name: &str, shift_m: f64) -> PathBuf {
     let size = (320, 240);
     let camera = moved(size, &RigidTransform::translation(-shift_m, 0.0, 0.0));
-    folder.photograph(name, &camera, size);
+    folder.write_photo(name, &camera, size);
     folder.file(name)
 }
 

@@ -74,9 +74,9 @@ fn boards_are_drawn_to_scale_and_found() {
         let search = find_board(&gray, &board, &mut ()).unwrap();
         let problem = search.problem(&board);
         let view = search.view().unwrap_or_else(|| panic!("{problem:?}"));
-        assert_eq!(view.num_seen(), board.num_marks(), "{result}");
+        assert_eq!(view.num_visible(), board.num_marks(), "{result}");
         let first = view.pixels[0].unwrap();
-        for (mark, pixel) in view.seen() {
+        for (mark, pixel) in view.visible() {
             let expected = (board.mark(mark) - board.mark(0)) * 5000.0;
             // Boards that a half turn keeps may be counted from the other end.
             let off = (pixel - first - expected)

@@ -22,7 +22,7 @@ fn k() -> Intrinsics {
 }
 
 /// A board of 7 × 5 inner corners, seen by a lens that bends.
-fn photograph(folder: &Folder, name: &str, cam_from_board: &RigidTransform) -> PathBuf {
+fn render_board_photo(folder: &Folder, name: &str, cam_from_board: &RigidTransform) -> PathBuf {
     let board_from_cam = cam_from_board.inverse();
     let origin = board_from_cam * Point3::origin();
     let gray = |u: f64, v: f64| -> f64 {
@@ -79,7 +79,7 @@ fn poses() -> Vec<RigidTransform> {
 }
 
 #[test]
-fn a_rig_is_calibrated_and_its_photographs_made_flat() {
+fn a_rig_is_calibrated_and_its_images_undistorted() {
     let folder = Folder::new("calibrate");
     let right_from_left = RigidTransform::new(
         Vector3::new(-0.05, 0.002, 0.003),
@@ -87,9 +87,9 @@ fn a_rig_is_calibrated_and_its_photographs_made_flat() {
     );
     let (mut left, mut right) = (Vec::new(), Vec::new());
     for (i, pose) in poses().iter().enumerate() {
-        left.push(photograph(&folder, &format!("left{i}.png"), pose));
+        left.push(render_board_photo(&folder, &format!("left{i}.png"), pose));
         let pose = right_from_left * pose;
-        right.push(photograph(&folder, &format!("right{i}.png"), &pose));
+        right.push(render_board_photo(&folder, &format!("right{i}.png"), &pose));
     }
     let file = folder.file("camera.json");
     let mut arguments = vec!["calibrate"];
@@ -222,12 +222,12 @@ fn a_rig_is_calibrated_and_its_photographs_made_flat() {
 }
 
 #[test]
-fn bad_sets_of_photographs_get_a_sentence() {
+fn bad_sets_of_images_are_rejected() {
     let folder = Folder::new("calibrate-bad");
-    let good = photograph(&folder, "good.png", &poses()[0]);
-    let other = photograph(&folder, "other.png", &poses()[1]);
+    let good = render_board_photo(&folder, "good.png", &poses()[0]);
+    let other = render_board_photo(&folder, "other.png", &poses()[1]);
     let half = RigidTransform::translation(0.22, 0.0, 0.0) * poses()[0];
-    let out = photograph(&folder, "out.png", &half);
+    let out = render_board_photo(&folder, "out.png", &half);
     let blank = folder.blank("blank.png", SIZE);
     let small = folder.blank("small.png", (64, 48));
     let board = ["--board", "7x5"];
@@ -251,15 +251,15 @@ fn bad_sets_of_photographs_get_a_sentence() {
         &[&good, &other],
         &["--board", "7x5", "--right", path(&good)],
         2,
-        "as many photographs",
+        "as many images",
     );
     // One of three shows nothing: the others do, and a warning names it.
-    let third = photograph(&folder, "third.png", &poses()[2]);
+    let third = render_board_photo(&folder, "third.png", &poses()[2]);
     let photos = [&good, &other, &third, &blank].map(|p| path(p));
     let output = epipole(&[&["calibrate"], &photos[..], &board[..]].concat());
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{told}");
-    assert!(told.contains("blank.png: no board of 7 × 5"), "{told}");
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{stderr}");
+    assert!(stderr.contains("blank.png: no board of 7 × 5"), "{stderr}");
 }
 
 #[test]

@@ -89,8 +89,8 @@ fn one_of_several_cameras_is_chosen_by_size_or_name() {
     assert!((first(file) - 50.0).abs() < 1e-9);
     assert!((first(&format!("{file}#9")) - 70.0).abs() < 1e-9);
     // A file may have the sign in its name.
-    let odd = folder.write("a#9", "7 PINHOLE 64 48 25 25 32 24\n");
-    assert!((first(path(&odd)) - 25.0).abs() < 1e-9);
+    let unusual = folder.write("a#9", "7 PINHOLE 64 48 25 25 32 24\n");
+    assert!((first(path(&unusual)) - 25.0).abs() < 1e-9);
     let refused = |camera: &str, message: &str| {
         let arguments = arguments(camera);
         fails(

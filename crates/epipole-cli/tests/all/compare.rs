@@ -50,7 +50,7 @@ fn errors_are_those_of_evo() {
     let truth = folder.write("truth.txt", TRUTH);
     let estimate = folder.write("estimate.txt", ESTIMATE);
     let run = |align| json(&["compare", path(&truth), path(&estimate), "--align", align]);
-    let turn = [
+    let axes = [
         2.7686808464087598,
         2.649307766997022,
         2.602259584605659,
@@ -163,7 +163,7 @@ fn errors_are_those_of_evo() {
         check(&found["ape"]["translation_m"], ape, 1e-9, align);
         check(&found["ape"]["rotation_deg"], ape_deg, 1e-4, align);
         check(&found["rpe"]["translation_m"], rpe, 1e-9, align);
-        check(&found["rpe"]["rotation_deg"], turn, 1e-4, align);
+        check(&found["rpe"]["rotation_deg"], axes, 1e-4, align);
         assert_eq!(found["ate_rmse_m"], found["ape"]["translation_m"]["rmse"]);
         assert_eq!(found["rpe_rmse"], found["rpe"]["translation_m"]["rmse"]);
     }

@@ -11,12 +11,12 @@ const BASELINE_M: f64 = 0.06;
 /// A rectified pair and the true disparity of each pixel of the left picture.
 fn pair(folder: &Folder) -> (f64, Vec<f32>) {
     let left = moved(SIZE, &RigidTransform::identity());
-    let photograph = folder.photograph("left.png", &left, SIZE);
+    let write_photo = folder.write_photo("left.png", &left, SIZE);
     let right = moved(SIZE, &RigidTransform::translation(-BASELINE_M, 0.0, 0.0));
-    folder.photograph("right.png", &right, SIZE);
+    folder.write_photo("right.png", &right, SIZE);
     let focal_px = left.camera.intrinsics.fu_px();
     let of_depth = |depth: &f32| (focal_px * BASELINE_M / f64::from(*depth)) as f32;
-    (focal_px, photograph.depth_m.iter().map(of_depth).collect())
+    (focal_px, write_photo.depth_m.iter().map(of_depth).collect())
 }
 
 /// The values of a PFM file, top row first.
@@ -78,9 +78,9 @@ fn disparities_are_those_of_the_scene() {
             (Some(320), Some(240))
         );
         assert!((result["density"].as_f64().unwrap() - density).abs() < 1e-6);
-        let given = || found.iter().filter(|d| d.is_finite()).copied();
-        let least = given().fold(f32::INFINITY, f32::min);
-        let most = given().fold(0.0, f32::max);
+        let valid = || found.iter().filter(|d| d.is_finite()).copied();
+        let least = valid().fold(f32::INFINITY, f32::min);
+        let most = valid().fold(0.0, f32::max);
         assert!((result["min_disparity_px"].as_f64().unwrap() - f64::from(least)).abs() < 1e-4);
         assert!((result["max_disparity_px"].as_f64().unwrap() - f64::from(most)).abs() < 1e-4);
         assert!(least >= 0.0 && most <= 41.0);
@@ -111,7 +111,7 @@ fn disparities_are_those_of_the_scene() {
         ),
         (
             &["--window-px", "9"],
-            "--window-px is of --method bm, which is not the one asked for",
+            "--window-px belongs to --method bm, which is not selected",
         ),
         (&["--paths", "6"], "none of 4, 5 and 8"),
         (&["--left-right-max-px", "some"], "\"any\""),
@@ -212,9 +212,9 @@ fn a_wall_without_texture_gives_valid_files() {
         0.0
     );
     // Paths answer from smoothness, and it is said.
-    let said = String::from_utf8(crate::common::epipole(&base).stderr).unwrap();
-    assert_eq!(said.matches("shows no texture").count(), 2, "{said}");
-    assert_eq!(said.matches("are the same image").count(), 1, "{said}");
+    let stderr = String::from_utf8(crate::common::epipole(&base).stderr).unwrap();
+    assert_eq!(stderr.matches("shows no texture").count(), 2, "{stderr}");
+    assert_eq!(stderr.matches("are the same image").count(), 1, "{stderr}");
 }
 
 #[test]
@@ -364,24 +364,24 @@ fn a_cloud_follows_from_q_or_from_its_numbers() {
 }
 
 #[test]
-fn a_pair_whose_rows_do_not_agree_is_told() {
+fn a_pair_whose_rows_do_not_agree_is_reported() {
     let folder = Folder::new("stereo-rows");
     pair(&folder);
     let upper = moved(SIZE, &RigidTransform::translation(0.0, -0.06, 0.0));
-    folder.photograph("upper.png", &upper, SIZE);
+    folder.write_photo("upper.png", &upper, SIZE);
     let out = folder.file("d.pfm");
-    let said = |first: &str, second: &str, more: &[&str]| {
+    let stderr_of = |first: &str, second: &str, more: &[&str]| {
         let [first, second] = [first, second].map(|name| folder.file(name));
         let base = ["stereo", path(&first), path(&second), "-o", path(&out)];
         let output = crate::common::epipole(&[&base[..], more].concat());
         assert!(output.status.success());
         String::from_utf8(output.stderr).unwrap()
     };
-    let vertical = said("left.png", "upper.png", &[]);
+    let vertical = stderr_of("left.png", "upper.png", &[]);
     assert!(vertical.contains("columns agree, not rows"), "{vertical}");
-    let swapped = said("right.png", "left.png", &[]);
+    let swapped = stderr_of("right.png", "left.png", &[]);
     assert!(swapped.contains("may be swapped"), "{swapped}");
-    let narrow = said("left.png", "right.png", &["--max-disparity", "3"]);
+    let narrow = stderr_of("left.png", "right.png", &["--max-disparity", "3"]);
     assert!(narrow.contains("set --min-disparity"), "{narrow}");
-    assert_eq!(said("left.png", "right.png", &[]), "");
+    assert_eq!(stderr_of("left.png", "right.png", &[]), "");
 }

@@ -7,11 +7,11 @@ use nalgebra::{Point2, Vector3};
 use serde_json::json;
 
 /// Standard error of a command that succeeds.
-fn told(arguments: &[&str]) -> String {
+fn stderr_of(arguments: &[&str]) -> String {
     let output = epipole(arguments);
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(output.status.success(), "{told}");
-    told
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{stderr}");
+    stderr
 }
 
 #[test]
@@ -36,9 +36,9 @@ fn thermal_pictures_are_as_their_twins_in_eight_bits() {
     // Linear from the least value to the largest.
     let deep = image::open(&files[0]).unwrap().into_luma16();
     let (least, most) = (deep.iter().min().unwrap(), deep.iter().max().unwrap());
-    let share = |value: u16| f64::from(value - least) / f64::from(most - least);
+    let scaled = |value: u16| f64::from(value - least) / f64::from(most - least);
     let twin = GrayImage::from_fn(deep.width(), deep.height(), |u, v| {
-        Luma([(255.0 * share(deep.get_pixel(u, v).0[0])).round() as u8])
+        Luma([(255.0 * scaled(deep.get_pixel(u, v).0[0])).round() as u8])
     });
     let twin_file = folder.file("twin.png");
     twin.save(&twin_file).unwrap();
@@ -48,16 +48,16 @@ fn thermal_pictures_are_as_their_twins_in_eight_bits() {
         json(&["detect", path(&twin_file)])["keypoints"]
     );
     assert!(features["keypoints"].as_array().unwrap().len() > 160);
-    let sentence = told(&["detect", path(&files[0])]);
+    let sentence = stderr_of(&["detect", path(&files[0])]);
     assert!(
         sentence.contains("the values from 51241 to 52181 are in use"),
         "{sentence}"
     );
     let full = json(&["detect", path(&files[0]), "--range", "full"]);
     assert!(full["keypoints"].as_array().unwrap().is_empty());
-    let given = ["detect", path(&files[0]), "--range", "51241,52181"];
-    assert_eq!(json(&given)["keypoints"], features["keypoints"]);
-    assert_eq!(told(&given), "");
+    let arguments = ["detect", path(&files[0]), "--range", "51241,52181"];
+    assert_eq!(json(&arguments)["keypoints"], features["keypoints"]);
+    assert_eq!(stderr_of(&arguments), "");
     fails(
         &folder,
         &["detect", path(&files[0]), "--range", "9,5"],
@@ -108,7 +108,7 @@ fn frames_follow_each_other_by_their_numbers() {
 
 /// The exact fundamental matrix has its only minimum at 319.9 px.
 #[test]
-fn two_frames_tell_the_focal_length_and_its_deviation() {
+fn two_frames_determine_the_focal_length_and_its_deviation() {
     let Some(frames) = field("09/frames") else {
         return;
     };
@@ -117,18 +117,18 @@ fn two_frames_tell_the_focal_length_and_its_deviation() {
     let essential = [&pair[..], &["--model", "essential"]].concat();
     let result = json(&essential);
     let focal_px = numbers(&result["focals_px"])[0];
-    let said = told(&essential);
-    let std_px = said.split("± ").nth(1).unwrap().trim();
+    let message = stderr_of(&essential);
+    let std_px = message.split("± ").nth(1).unwrap().trim();
     let std_px: f64 = std_px.split_whitespace().next().unwrap().parse().unwrap();
-    assert!(std_px < 10.0, "{said}");
+    assert!(std_px < 10.0, "{message}");
     assert!(
         (focal_px - 320.0).abs() < 2.0 * std_px,
-        "{focal_px}: {said}"
+        "{focal_px}: {message}"
     );
 }
 
 #[test]
-fn photographs_of_two_folders_keep_their_names_apart() {
+fn photos_of_two_folders_have_distinct_names() {
     let Some(frames) = field("09/frames") else {
         return;
     };
@@ -244,12 +244,12 @@ fn four_matches_give_their_homography() {
             "{mapped}"
         );
     }
-    let sentence = told(&fit);
+    let sentence = stderr_of(&fit);
     assert!(sentence.contains("nothing verifies it"), "{sentence}");
     assert!(!sentence.contains("not significant"), "{sentence}");
     // A fifth one that does not agree is another matter.
     let wrong = folder.write("five.txt", &format!("{text}300 300 900 20\n"));
-    let sentence = told(&["fit", "--model", "homography", path(&wrong)]);
+    let sentence = stderr_of(&["fit", "--model", "homography", path(&wrong)]);
     assert!(sentence.contains("not significant"), "{sentence}");
 }
 
@@ -300,7 +300,7 @@ fn landmarks_of_pose_graphs_count_and_others_get_a_sentence() {
          EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 0 2 4 0 1 0 1\n\
          EDGE_SE2_XY 1 2 2 0 1 0 1\nEDGE_BEARING_SE2_XY 1 2 0.7 1\n",
     );
-    let sentence = told(&["posegraph", path(&graph)]);
+    let sentence = stderr_of(&["posegraph", path(&graph)]);
     assert!(
         sentence.contains("warning: left out: 1 measurement. "),
         "{sentence}"
@@ -318,7 +318,7 @@ fn landmarks_of_pose_graphs_count_and_others_get_a_sentence() {
 }
 
 #[test]
-fn the_photograph_of_a_telephone_is_downscaled_whatever_its_size() {
+fn a_phone_photo_of_any_size_is_downscaled() {
     let folder = Folder::new("telephone");
     // 64.1 megapixels.
     let large = GrayImage::from_fn(9248, 6936, |u, v| Luma([(u / 64 * 31 + v / 64 * 57) as u8]));
@@ -358,7 +358,7 @@ fn a_rig_whose_right_camera_is_upside_down_knows_its_baseline() {
 }
 
 #[test]
-fn photos_one_above_the_other_are_said_to_agree_in_columns() {
+fn vertical_pairs_are_reported_to_agree_in_columns() {
     let [Some(upper), Some(lower)] = ["16/upper.jpg", "16/lower.jpg"].map(field) else {
         return;
     };
@@ -374,6 +374,6 @@ fn photos_one_above_the_other_are_said_to_agree_in_columns() {
         "-o",
         path(&out),
     ];
-    assert!(told(&arguments).contains("columns agree, not rows"));
+    assert!(stderr_of(&arguments).contains("columns agree, not rows"));
     assert_eq!(json(&arguments)["is_vertical"], true);
 }

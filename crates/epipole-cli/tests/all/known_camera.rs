@@ -1,6 +1,6 @@
 //! `epipole two-view`, `match` and `rectify` with a known camera, for every lens model.
 
-use crate::common::lens::{KINDS, SIZE, camera, photographs, wall_photograph, write};
+use crate::common::lens::{KINDS, SIZE, camera, photos, wall_photo, write};
 use crate::common::{Folder, angle_deg, epipole, fails, json, motion, numbers, path};
 use epipole::camera::{Camera, Lens, LensKind, RigidTransform, look_at};
 use image::RgbImage;
@@ -18,10 +18,10 @@ fn table(camera: &Camera) -> [RigidTransform; 2] {
     })
 }
 
-fn pair(folder: &Folder, photographs: [RgbImage; 2]) -> [PathBuf; 2] {
+fn pair(folder: &Folder, photos: [RgbImage; 2]) -> [PathBuf; 2] {
     let files = ["a.png", "b.png"].map(|name| folder.file(name));
-    for (file, photograph) in files.iter().zip(photographs) {
-        photograph.save(file).unwrap();
+    for (file, photo) in files.iter().zip(photos) {
+        photo.save(file).unwrap();
     }
     files
 }
@@ -52,19 +52,19 @@ fn off_deg(found: &Value, truth: &RigidTransform) -> [f64; 2] {
 }
 
 #[test]
-fn every_lens_gives_the_motion_between_its_photographs() {
+fn every_lens_gives_the_motion_between_its_photos() {
     for kind in KINDS {
         let folder = Folder::new(&format!("known-{}", kind.name()));
         let camera = camera(kind);
         let poses = table(&camera);
         let truth = poses[1] * poses[0].inverse();
-        let files = pair(&folder, photographs(&camera, poses));
+        let files = pair(&folder, photos(&camera, poses));
         let file = write(&folder, &camera);
         let found = two_view(&files, &file, "essential");
         assert_eq!(found["configuration"], "general", "{kind:?}");
         assert_eq!(found["model_of"], "rays");
         assert_eq!(found["model_kind"], "essential");
-        let [turn, direction] = off_deg(&found["cam2_from_cam1"], &truth);
+        let [angle, direction] = off_deg(&found["cam2_from_cam1"], &truth);
         // PoseLib finds 1.04° and 2.72° from the rays of the narrowest, ours .87° and 2.70°: more
         // is not in its matches.
         let within = match kind {
@@ -72,8 +72,8 @@ fn every_lens_gives_the_motion_between_its_photographs() {
             _ => [0.3, 0.5],
         };
         assert!(
-            turn < within[0] && direction < within[1],
-            "{kind:?}: {turn} {direction}"
+            angle < within[0] && direction < within[1],
+            "{kind:?}: {angle} {direction}"
         );
         let mean_px = found["mean_sampson_px"].as_f64().unwrap();
         assert!(mean_px > 0.0 && mean_px < 0.5, "{kind:?}: {mean_px}");
@@ -81,10 +81,10 @@ fn every_lens_gives_the_motion_between_its_photographs() {
         let found_motion = motion(&found["cam2_from_cam1"]);
         let e = found_motion.translation.vector.cross_matrix()
             * found_motion.rotation.to_rotation_matrix().into_inner();
-        let told = crate::common::matrix(&found["model"]);
-        let off = (told - e / e.norm())
+        let estimated = crate::common::matrix(&found["model"]);
+        let off = (estimated - e / e.norm())
             .norm()
-            .min((told + e / e.norm()).norm());
+            .min((estimated + e / e.norm()).norm());
         assert!(off < 1e-9, "{off}");
         // Four fifths of the Brown camera's view are the table, so its result is planar.
         let chosen = two_view(&files, &file, "auto");
@@ -93,31 +93,31 @@ fn every_lens_gives_the_motion_between_its_photographs() {
             _ => "general",
         };
         assert_eq!(chosen["configuration"], expected, "{kind:?}");
-        let [turn, direction] = off_deg(&chosen["cam2_from_cam1"], &truth);
+        let [angle, direction] = off_deg(&chosen["cam2_from_cam1"], &truth);
         assert!(
-            turn < within[0].max(0.5) && direction < within[1].max(1.5),
-            "{kind:?}: {turn} {direction}"
+            angle < within[0].max(0.5) && direction < within[1].max(1.5),
+            "{kind:?}: {angle} {direction}"
         );
     }
 }
 
 #[test]
-fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
+fn wide_and_narrow_lenses_distinguish_planes_and_rotations() {
     for kind in [LensKind::Fisheye, LensKind::Division] {
         let folder = Folder::new(&format!("known-flat-{}", kind.name()));
         let camera = camera(kind);
         let file = write(&folder, &camera);
         let back = camera.intrinsics.fu_px() / 140.0;
         let first = RigidTransform::new(Vector3::new(0.0, 0.0, back), Vector3::new(0.1, 0.3, 0.0));
-        let turn = RigidTransform::rotation(Vector3::new(0.03, -0.09, 0.05));
-        let step = RigidTransform::translation(-0.3, 0.05, 0.1) * turn;
-        let wall = [first, step * first].map(|pose| wall_photograph(&camera, &pose));
+        let rotation = RigidTransform::rotation(Vector3::new(0.03, -0.09, 0.05));
+        let step = RigidTransform::translation(-0.3, 0.05, 0.1) * rotation;
+        let wall = [first, step * first].map(|pose| wall_photo(&camera, &pose));
         let files = pair(&folder, wall);
         let found = two_view(&files, &file, "auto");
         assert_eq!(found["configuration"], "planar", "{kind:?}: {found}");
         let offs = ["cam2_from_cam1", "other_cam2_from_cam1"].map(|name| match &found[name] {
             Value::Null => f64::INFINITY,
-            told => off_deg(told, &step).iter().fold(0.0, |a, b| b.max(a)),
+            estimated => off_deg(estimated, &step).iter().fold(0.0, |a, b| b.max(a)),
         });
         assert!(offs[0].min(offs[1]) < 3.0, "{kind:?}: {offs:?}");
         let homography = two_view(&files, &file, "homography");
@@ -129,15 +129,15 @@ fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
         assert!(off < 0.02, "{kind:?}: {off}");
 
         let poses = table(&camera);
-        let turned = photographs(&camera, [poses[0], turn * poses[0]]);
-        let files = pair(&folder, turned);
+        let rotated = photos(&camera, [poses[0], rotation * poses[0]]);
+        let files = pair(&folder, rotated);
         for model in ["auto", "essential", "homography"] {
             let found = two_view(&files, &file, model);
             assert_eq!(found["configuration"], "panoramic", "{kind:?} {model}");
-            let told = motion(&found["cam2_from_cam1"]);
-            let off = told.rotation.angle_to(&turn.rotation).to_degrees();
+            let estimated = motion(&found["cam2_from_cam1"]);
+            let off = estimated.rotation.angle_to(&rotation.rotation).to_degrees();
             assert!(
-                off < 0.1 && told.translation.vector.norm() == 0.0,
+                off < 0.1 && estimated.translation.vector.norm() == 0.0,
                 "{kind:?}: {off}"
             );
         }
@@ -145,11 +145,11 @@ fn planes_and_turns_are_told_through_wide_and_narrow_lenses() {
 }
 
 #[test]
-fn matches_tell_the_rays_of_their_keypoints() {
+fn matches_contain_the_rays_of_their_keypoints() {
     let folder = Folder::new("known-rays");
     let camera = camera(LensKind::Fisheye);
     let poses = table(&camera);
-    let files = pair(&folder, photographs(&camera, poses));
+    let files = pair(&folder, photos(&camera, poses));
     let file = write(&folder, &camera);
     let [a, b] = files.each_ref().map(|file| path(file));
     let found = json(&["match", a, b, "--camera", path(&file)]);
@@ -171,11 +171,11 @@ fn matches_tell_the_rays_of_their_keypoints() {
         count("rays1"),
         count("rays2")
     );
-    let said = |arguments: &[&str]| String::from_utf8(epipole(arguments).stdout).unwrap();
-    let told = said(&["match", a, b, "--camera", path(&file)]);
-    assert!(told.contains(&row), "{row}: {told}");
+    let stdout_of = |arguments: &[&str]| String::from_utf8(epipole(arguments).stdout).unwrap();
+    let text = stdout_of(&["match", a, b, "--camera", path(&file)]);
+    assert!(text.contains(&row), "{row}: {estimated}");
     assert!(json(&["match", a, b]).get("rays1").is_none());
-    assert!(!said(&["match", a, b]).contains("lens"));
+    assert!(!stdout_of(&["match", a, b]).contains("lens"));
 }
 
 /// Matches in the rectified images are in the same row.
@@ -184,7 +184,7 @@ fn every_lens_is_rectified() {
     for kind in KINDS {
         let folder = Folder::new(&format!("known-rectify-{}", kind.name()));
         let camera = camera(kind);
-        let files = pair(&folder, photographs(&camera, table(&camera)));
+        let files = pair(&folder, photos(&camera, table(&camera)));
         let file = write(&folder, &camera);
         let out = folder.file("out");
         let [a, b] = files.each_ref().map(|file| path(file));
@@ -251,8 +251,8 @@ fn cameras_that_do_not_fit_get_a_sentence() {
         // One photograph has the camera's size; the focal length of the other is guessed, with a
         // warning.
         let output = epipole(&[command, path(&a), d, "--camera", path(&file)]);
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert!(told.contains("is used for 1 of 2 images"), "{told}");
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(stderr.contains("is used for 1 of 2 images"), "{stderr}");
     }
     let folds = Camera {
         lens: Lens::from_coefficients(LensKind::Fisheye, &[-3.0, 0.0, 0.0, 0.0]).unwrap(),

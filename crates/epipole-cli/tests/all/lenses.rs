@@ -1,6 +1,6 @@
 //! Photographs through a fisheye, from pixels to a model with its lens.
 
-use crate::common::lens::photographs;
+use crate::common::lens::photos;
 use crate::common::{Folder, epipole, fails, json, motion, numbers, parse, path};
 use epipole::camera::{Camera, Fisheye, Intrinsics, Lens, RigidTransform, look_at};
 use epipole::sfm::{AlignmentKind, align_points};
@@ -57,13 +57,13 @@ fn off_m(result: &Value) -> f64 {
 }
 
 #[test]
-fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
+fn a_fisheye_is_reconstructed_from_distorted_photos() {
     let folder = Folder::new("fisheye");
     let mut files: Vec<PathBuf> = Vec::new();
-    let photographs = photographs(&camera(), poses());
-    for (n, photograph) in photographs.iter().enumerate() {
+    let photos = photos(&camera(), poses());
+    for (n, photo) in photos.iter().enumerate() {
         files.push(folder.file(&format!("{n}.png")));
-        photograph.save(&files[n]).unwrap();
+        photo.save(&files[n]).unwrap();
     }
     let camera = folder.write("camera.json", &camera_json(&COEFFICIENTS));
     let out = folder.file("out");
@@ -75,11 +75,11 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
         json(&arguments)
     };
     let cameras = || std::fs::read_to_string(out.join("cameras.txt")).unwrap();
-    let kept = sfm(&camera, &["--images"]);
-    assert_eq!(kept["num_registered"], 5);
-    assert_eq!(kept["images"][0]["lens"], "fisheye");
-    assert_eq!(numbers(&kept["images"][0]["distortion"]), COEFFICIENTS);
-    assert!(off_m(&kept) < 0.003, "{}", off_m(&kept));
+    let distorted = sfm(&camera, &["--images"]);
+    assert_eq!(distorted["num_registered"], 5);
+    assert_eq!(distorted["images"][0]["lens"], "fisheye");
+    assert_eq!(numbers(&distorted["images"][0]["distortion"]), COEFFICIENTS);
+    assert!(off_m(&distorted) < 0.003, "{}", off_m(&distorted));
     let line =
         format!("1 OPENCV_FISHEYE {SIZE} {SIZE} 140 141 211 208.5 -0.02 0.006 -0.002 0.0003");
     assert!(cameras().lines().any(|l| l == line), "{}", cameras());
@@ -92,8 +92,9 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     let flat = sfm(&camera, &["--undistort"]);
     assert!(cameras().contains("1 PINHOLE "), "{}", cameras());
     assert_eq!(flat["images"][0]["lens"], "brown");
-    let [num_kept, num_flat] = [&kept, &flat].map(|result| result["num_points"].as_u64().unwrap());
-    assert!(num_kept > num_flat, "{num_kept} {num_flat}");
+    let [num_distorted, num_flat] =
+        [&distorted, &flat].map(|result| result["num_points"].as_u64().unwrap());
+    assert!(num_distorted > num_flat, "{num_distorted} {num_flat}");
 
     // A camera that is a little wrong is put right.
     let wrong = folder.write("wrong.json", &camera_json(&[0.0; 4]));
@@ -110,15 +111,15 @@ fn a_fisheye_is_reconstructed_from_its_photographs_as_they_are() {
     assert!(off_px < 0.5, "{off_px}");
 
     // Photographs of another size are by another camera, and share no lens with it.
-    let small = image::imageops::thumbnail(&photographs[2], 200, 200);
+    let small = image::imageops::thumbnail(&photos[2], 200, 200);
     small.save(folder.file("5.png")).unwrap();
     let mut arguments = vec!["sfm", "--camera", path(&camera), "-o", path(&out), "--json"];
     arguments.extend(files.iter().map(|file| path(file)));
     let small = folder.file("5.png");
     arguments.push(path(&small));
     let output = epipole(&arguments);
-    let told = String::from_utf8(output.stderr.clone()).unwrap();
-    assert!(told.contains("is used for 5 of 6 images"), "{told}");
+    let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(stderr.contains("is used for 5 of 6 images"), "{stderr}");
     assert!(parse(&output)["num_registered"].as_u64().unwrap() >= 5);
 }
 
@@ -167,9 +168,9 @@ fn lenses_that_cannot_be_are_refused() {
     let camera = folder.write("camera.json", &camera_json(&[0.0; 4]));
     let mut arguments = vec!["sfm", path(&photos[0]), path(&photos[1]), "-o", path(&out)];
     arguments.extend(["--camera", path(&camera), "--refine-tangential"]);
-    let told = String::from_utf8(epipole(&arguments).stderr).unwrap();
+    let stderr = String::from_utf8(epipole(&arguments).stderr).unwrap();
     assert!(
-        told.contains("--refine-tangential makes no difference"),
-        "{told}"
+        stderr.contains("--refine-tangential makes no difference"),
+        "{stderr}"
     );
 }

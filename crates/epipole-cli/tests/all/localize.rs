@@ -13,8 +13,8 @@ const SIZE: (u32, u32) = (400, 300);
 fn around(n: usize) -> PosedCamera {
     let angle = 0.1 * (n as f64 - 2.0);
     let pivot = Vector3::new(0.0, 0.0, 1.3);
-    let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
-    let shift = pivot - turn * pivot;
+    let pose = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+    let shift = pivot - pose * pivot;
     moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
 }
 
@@ -36,7 +36,7 @@ fn without(model: &Model, left_out: usize) -> Model {
 fn a_photo_is_localized_where_it_was_reconstructed() {
     let folder = Folder::new("localize");
     let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let result = json(&[
         "sfm",
@@ -79,9 +79,9 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
     assert!(off < 0.01, "{off}");
     assert!(pose.rotation.angle_to(&truth.rotation) < 0.005);
     assert!(found["num_inliers"].as_u64().unwrap() > 50);
-    let [seen, again] =
+    let [first, again] =
         ["num_observations", "num_found_again"].map(|n| result[n].as_u64().unwrap());
-    assert!(again * 10 > seen * 8, "{again} of {seen}");
+    assert!(again * 10 > first * 8, "{again} of {first}");
 
     // Of twice the size: its camera is that of the model.
     let large = folder.file("large.png");
@@ -122,8 +122,8 @@ fn a_photo_is_localized_where_it_was_reconstructed() {
             .unwrap()
             .contains("needs at least 15")
     );
-    let alone = ["localize", path(&blank), path(&less), images[0], images[1]];
-    fails(&folder, &alone, 1, "needs at least 15");
+    let without_output = ["localize", path(&blank), path(&less), images[0], images[1]];
+    fails(&folder, &without_output, 1, "needs at least 15");
     let unfound = ["localize", path(&blank), path(&less)];
     fails(&folder, &unfound, 2, "give --images DIR");
     let elsewhere = [

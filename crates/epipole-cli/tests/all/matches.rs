@@ -19,7 +19,7 @@ fn pair(folder: &Folder) -> String {
         moved(SIZE, &motion),
     ];
     for (camera, name) in cameras.iter().zip(["a.png", "b.png"]) {
-        folder.photograph(name, camera, SIZE);
+        folder.write_photo(name, camera, SIZE);
     }
     k(&cameras[0])
 }
@@ -92,7 +92,7 @@ fn matches_that_were_written_give_the_same_geometry() {
 fn inliers_that_were_written_all_agree() {
     let folder = Folder::new("inliers");
     let k = pair(&folder);
-    let [a, b, text, kept] =
+    let [a, b, text, inliers_file] =
         ["a.png", "b.png", "matches.txt", "kept.csv"].map(|name| folder.file(name));
     json(&[
         "match",
@@ -106,11 +106,11 @@ fn inliers_that_were_written_all_agree() {
     let fit = ["fit", "--model", "fundamental", path(&text)];
     let pose = ["two-view", "--matches", path(&text), "--k", &k];
     for arguments in [&fit[..], &pose[..]] {
-        let found = json(&[arguments, &["-o", path(&kept)]].concat());
+        let found = json(&[arguments, &["-o", path(&inliers_file)]].concat());
         let count = &found["num_inliers"];
         // Above the thresholds of both commands.
         let wide = ["--max-error-px", "4"];
-        let again = ["fit", "--model", "fundamental", path(&kept)];
+        let again = ["fit", "--model", "fundamental", path(&inliers_file)];
         let again = json(&[&again[..], &wide].concat());
         assert_eq!(again["inliers"].as_array().unwrap().len(), *count);
         assert_eq!(again["num_inliers"], *count);
@@ -122,7 +122,7 @@ fn inliers_that_were_written_all_agree() {
 }
 
 #[test]
-fn without_photos_the_camera_must_be_said() {
+fn without_photos_the_camera_is_required() {
     let folder = Folder::new("matches-alone");
     let rows = (0..20).map(|n| format!("{} {} {} {}\n", n * 7 % 20, n, n * 7 % 20 + 3, n));
     let file = folder.write("matches.txt", &rows.collect::<String>());

@@ -286,13 +286,14 @@ fn cameras_are_inspected_with_convention_and_lens() {
     let folder = Folder::new("inspect-cameras");
     let lines = "1 PINHOLE 640 480 500 501 320 240\n2 RADIAL 640 480 500 320 240 -0.1 0.02\n";
     let file = folder.write("cameras.txt", lines);
-    let told = String::from_utf8(crate::common::epipole(&["inspect", path(&file)]).stdout).unwrap();
+    let stdout =
+        String::from_utf8(crate::common::epipole(&["inspect", path(&file)]).stdout).unwrap();
     for words in [
         "pixel centers at halves in the file, converted to integers",
         "principal point (319.50, 239.50), no distortion",
         "brown lens -0.1, 0.02, 0, 0, 0",
     ] {
-        assert!(told.contains(words), "{told}");
+        assert!(stdout.contains(words), "{stdout}");
     }
 }
 
@@ -509,6 +510,6 @@ fn other_files_are_inspected() {
         fails(&folder, &["inspect", path(&file)], 1, why);
     }
     let place = folder.file("out.txt");
-    let why = "photo.png: this is a photograph, where a model, cameras or a trajectory is expected";
+    let why = "photo.png: this is an image, where a model, cameras or a trajectory is expected";
     fails(&folder, &["convert", path(&photo), path(&place)], 1, why);
 }

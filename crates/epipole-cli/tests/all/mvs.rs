@@ -15,10 +15,13 @@ const COUNT: usize = 4;
 
 /// A camera that moves around the table and looks at it.
 fn around(n: usize) -> PosedCamera {
-    let turn = Vector3::new(0.05 * (n % 2) as f64, 0.1 * (n as f64 - 1.5), 0.0);
+    let rotation_vector = Vector3::new(0.05 * (n % 2) as f64, 0.1 * (n as f64 - 1.5), 0.0);
     let pivot = Vector3::new(0.0, 0.0, 1.3);
-    let rotation = RigidTransform::new(Vector3::zeros(), turn);
-    moved(SIZE, &RigidTransform::new(pivot - rotation * pivot, turn))
+    let rotation = RigidTransform::new(Vector3::zeros(), rotation_vector);
+    moved(
+        SIZE,
+        &RigidTransform::new(pivot - rotation * pivot, rotation_vector),
+    )
 }
 
 fn depth_at(photo: &Photograph, pixel: &Point2<f64>) -> Option<f64> {
@@ -55,12 +58,13 @@ fn model(photos: &[Photograph]) -> Model {
             .inverse_transform_point(&Point3::from(in_cam));
         let mut track = Vec::new();
         for (image, photo) in photos.iter().enumerate() {
-            let seen = around(image).project(&position).unwrap();
+            let projected = around(image).project(&position).unwrap();
             let depth = (around(image).cam_from_world * position).z;
-            let is_seen = depth_at(photo, &seen).is_some_and(|z| (z / depth - 1.0).abs() < 0.005);
-            if is_seen {
+            let is_visible =
+                depth_at(photo, &projected).is_some_and(|z| (z / depth - 1.0).abs() < 0.005);
+            if is_visible {
                 track.push((image, model.images[image].keypoints.len()));
-                model.images[image].keypoints.push(seen);
+                model.images[image].keypoints.push(projected);
             }
         }
         model.points.push(ModelPoint {
@@ -88,7 +92,7 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     let names: Vec<String> = (0..COUNT).map(|n| format!("photos/{n}.png")).collect();
     std::fs::create_dir_all(folder.file("photos")).unwrap();
     let photos: Vec<Photograph> = (names.iter().enumerate())
-        .map(|(n, name)| folder.photograph(name, &around(n), SIZE))
+        .map(|(n, name)| folder.write_photo(name, &around(n), SIZE))
         .collect();
     let model = model(&photos);
     let known = folder.file("reconstruction");
@@ -183,10 +187,10 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     assert!(!out.join("mesh.glb").exists());
     let coarse = ["--mesh", "ply", "--voxel-size", "100"];
     let empty = epipole(&[&base[..], &coarse].concat());
-    let told = String::from_utf8(empty.stderr).unwrap();
+    let stderr = String::from_utf8(empty.stderr).unwrap();
     assert!(
-        empty.status.success() && told.contains("the mesh is empty"),
-        "{told}"
+        empty.status.success() && stderr.contains("the mesh is empty"),
+        "{stderr}"
     );
 
     // Twice the same, and at half the size.
@@ -205,10 +209,10 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
     // Without one image.
     std::fs::remove_file(folder.file("photos/3.png")).unwrap();
     let output = epipole(&[&base[..], &["--max-size", "120"]].concat());
-    let told = String::from_utf8(output.stderr).unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(
-        output.status.success() && told.contains("1 of 4 images of the model are not in"),
-        "{told}"
+        output.status.success() && stderr.contains("1 of 4 images of the model are not in"),
+        "{stderr}"
     );
 }
 
@@ -216,8 +220,8 @@ fn photos_of_a_model_become_depth_maps_and_a_cloud() {
 fn input_without_depth_is_refused() {
     let folder = Folder::new("mvs-bad");
     let cameras: Vec<PosedCamera> = (0..COUNT).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
-    let render = |n: usize| folder.photograph(&format!("photos/{n}.png"), &around(n), SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
+    let render = |n: usize| folder.write_photo(&format!("photos/{n}.png"), &around(n), SIZE);
     let photos: Vec<Photograph> = (0..COUNT).map(render).collect();
     let whole = model(&photos);
     let images = folder.file("photos");

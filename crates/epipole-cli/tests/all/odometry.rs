@@ -43,8 +43,8 @@ fn off(found: &[RigidTransform], truth: &[RigidTransform]) -> Vec<[f64; 2]> {
     let scale = length(truth) / length(found);
     let each = found.iter().zip(truth).map(|(got, want)| {
         let error = (got.translation.vector * scale - want.translation.vector).norm();
-        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
-        [error / length(truth), turn]
+        let angle = got.rotation.angle_to(&want.rotation).to_degrees();
+        [error / length(truth), angle]
     });
     each.collect()
 }
@@ -53,7 +53,7 @@ fn off(found: &[RigidTransform], truth: &[RigidTransform]) -> Vec<[f64; 2]> {
 fn a_moving_camera_is_followed_up_to_scale() {
     let folder = Folder::new("odometry");
     let cameras: Vec<PosedCamera> = (0..8).map(along).collect();
-    folder.photographs("left", &cameras, SIZE);
+    folder.write_photos("left", &cameras, SIZE);
     let left = folder.file("left");
     let written = folder.file("path.txt");
     let camera = k(&cameras[0]);
@@ -77,16 +77,16 @@ fn a_moving_camera_is_followed_up_to_scale() {
         ["#", "0.0", "1.0", "2.0", "3.0", "4.0", "5.0", "6.0", "7.0"]
     );
     let (_, read) = read_trajectory(text.as_bytes()).unwrap();
-    for (read, told) in read.world_from_cam.iter().zip(path_of(&result)) {
-        let off = read.to_homogeneous() - told.to_homogeneous();
+    for (read, expected) in read.world_from_cam.iter().zip(path_of(&result)) {
+        let off = read.to_homogeneous() - expected.to_homogeneous();
         assert!(off.amax() < 1e-12, "{off}");
     }
     assert_eq!(result["frames"][3]["name"], "3.png");
     let keyframes = numbers(&result["keyframes"]);
     assert!(keyframes.len() >= 2 && keyframes.windows(2).all(|pair| pair[0] < pair[1]));
     // One camera alone leaves the unit open: that of the last frame is taken from the truth.
-    for [place, turn] in off(&path_of(&result), &truth(&cameras)) {
-        assert!(place < 0.026 && turn < 0.3, "{place} {turn}");
+    for [place, angle] in off(&path_of(&result), &truth(&cameras)) {
+        assert!(place < 0.026 && angle < 0.3, "{place} {angle}");
     }
 }
 
@@ -101,8 +101,8 @@ fn a_stereo_rig_is_followed_in_meters() {
             ..*camera
         })
         .collect();
-    folder.photographs("left", &cameras, SIZE);
-    folder.photographs("right", &right, SIZE);
+    folder.write_photos("left", &cameras, SIZE);
+    folder.write_photos("right", &right, SIZE);
     let folders = [folder.file("left"), folder.file("right")];
     let camera = k(&cameras[0]);
     let rig = ["--right", path(&folders[1]), "--stereo-baseline-m", "0.08"];
@@ -111,8 +111,8 @@ fn a_stereo_rig_is_followed_in_meters() {
     // No alignment: the frame is that of the first camera, the unit is the meter.
     for (got, want) in path_of(&result).iter().zip(&truth(&cameras)) {
         let error = (got.translation.vector - want.translation.vector).norm();
-        let turn = got.rotation.angle_to(&want.rotation).to_degrees();
-        assert!(error < 0.01 && turn < 0.3, "{error} {turn}");
+        let angle = got.rotation.angle_to(&want.rotation).to_degrees();
+        assert!(error < 0.01 && angle < 0.3, "{error} {angle}");
     }
 }
 
@@ -120,16 +120,16 @@ fn a_stereo_rig_is_followed_in_meters() {
 fn frames_without_a_path_are_refused() {
     let folder = Folder::new("odometry-bad");
     let cameras: Vec<PosedCamera> = (0..3).map(along).collect();
-    folder.photographs("three", &cameras, SIZE);
-    folder.photographs("two", &cameras[..2], SIZE);
-    folder.photographs("one", &cameras[..1], SIZE);
-    let turned = |n: f64| {
+    folder.write_photos("three", &cameras, SIZE);
+    folder.write_photos("two", &cameras[..2], SIZE);
+    folder.write_photos("one", &cameras[..1], SIZE);
+    let rotated = |n: f64| {
         moved(
             SIZE,
             &RigidTransform::new(Vector3::zeros(), Vector3::y() * 0.03 * n),
         )
     };
-    folder.photographs("turned", &[0.0, 1.0, 2.0, 3.0].map(turned), SIZE);
+    folder.write_photos("turned", &[0.0, 1.0, 2.0, 3.0].map(rotated), SIZE);
     std::fs::create_dir(folder.file("sizes")).unwrap();
     folder.blank("sizes/0.png", SIZE);
     folder.blank("sizes/1.png", (100, 80));
@@ -150,7 +150,7 @@ fn frames_without_a_path_are_refused() {
             "sizes",
             "1.png: all frames must have the size of the first, 400 × 300, but this one is 100 × 80",
         ),
-        ("empty", "there are no photographs"),
+        ("empty", "there are no images"),
         ("missing", "there is no such file"),
     ] {
         let frames = folder.file(name);
@@ -219,7 +219,7 @@ fn frames_through_any_lens_are_followed() {
             look_at(&center, &Point3::new(0.03, -0.1, 0.05), &up).unwrap()
         });
         std::fs::create_dir_all(folder.file("frames")).unwrap();
-        for (n, frame) in lens::photographs(&camera, poses).iter().enumerate() {
+        for (n, frame) in lens::photos(&camera, poses).iter().enumerate() {
             let file = folder.file(&format!("frames/{n}.png"));
             frame.save(file).unwrap();
         }
@@ -237,17 +237,20 @@ fn frames_through_any_lens_are_followed() {
         // More than that is not in the matches of the narrowest: PoseLib finds .87° there between
         // two photographs.
         let most_deg = if kind == LensKind::Division { 1.0 } else { 0.3 };
-        for [place, turn] in off(&path_of(&result), &truth) {
-            assert!(place < 0.05 && turn < most_deg, "{kind:?}: {place} {turn}");
+        for [place, angle] in off(&path_of(&result), &truth) {
+            assert!(
+                place < 0.05 && angle < most_deg,
+                "{kind:?}: {place} {angle}"
+            );
         }
         // The requested distortion terms are refined, if the lens model has them.
         let more = ["--refine-distortion", "--refine-tangential", "--json"];
         let output = epipole(&[&arguments[..], &more].concat());
         let refined = numbers(&parse(&output)["distortion"]);
         assert_ne!(refined, camera.lens.coefficients());
-        let told = String::from_utf8(output.stderr).unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
         let has_none = matches!(kind, LensKind::Fisheye | LensKind::Division);
-        assert_eq!(told.contains("no tangential terms"), has_none, "{kind:?}");
+        assert_eq!(stderr.contains("no tangential terms"), has_none, "{kind:?}");
     }
 }
 
@@ -259,12 +262,12 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
     let pivot = Vector3::new(0.0, 0.0, 1.3);
     let cameras: Vec<PosedCamera> = (0..6)
         .map(|n| {
-            let turn = Vector3::y() * (0.1 * (f64::from(n) - 2.0));
-            let shift = pivot - RigidTransform::new(Vector3::zeros(), turn) * pivot;
-            moved(SIZE, &RigidTransform::new(shift, turn))
+            let angle = Vector3::y() * (0.1 * (f64::from(n) - 2.0));
+            let shift = pivot - RigidTransform::new(Vector3::zeros(), angle) * pivot;
+            moved(SIZE, &RigidTransform::new(shift, angle))
         })
         .collect();
-    folder.photographs("frames", &cameras, SIZE);
+    folder.write_photos("frames", &cameras, SIZE);
     let frames = folder.file("frames");
     let run = |more: &[&str]| {
         let result = json(&[&["odometry", path(&frames)], more].concat());
@@ -272,11 +275,11 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
         (focal_px, result["focal_refined"].as_bool().unwrap())
     };
     let (truth_px, guess_px) = (cameras[0].camera.intrinsics.fu_px(), 480.0);
-    for kept in [&["--keep-focal"][..], &["--final-adjustment=false"]] {
-        let (focal_px, is_refined) = run(kept);
+    for fixed in [&["--keep-focal"][..], &["--final-adjustment=false"]] {
+        let (focal_px, is_refined) = run(fixed);
         assert!(
             !is_refined && (focal_px - guess_px).abs() < 1e-9,
-            "{kept:?}"
+            "{fixed:?}"
         );
     }
     let (focal_px, is_refined) = run(&[]);
@@ -285,21 +288,21 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
         is_refined && off(focal_px) < 0.5 * off(guess_px),
         "{focal_px}"
     );
-    let asked = [
+    let arguments = [
         "odometry",
         path(&frames),
         "--final-adjustment=false",
         "--refine-focal",
     ];
-    let told = String::from_utf8(epipole(&asked).stderr).unwrap();
-    assert!(told.contains("no lens parameter is refined"), "{told}");
+    let stderr = String::from_utf8(epipole(&arguments).stderr).unwrap();
+    assert!(stderr.contains("no lens parameter is refined"), "{stderr}");
     // From far away it takes several rounds.
     let (from_far_px, _) = run(&["--focal-px", "800", "--refine-focal"]);
     assert!(off(from_far_px) < off(guess_px), "{from_far_px}");
-    let told = String::from_utf8(epipole(&["odometry", path(&frames)]).stderr).unwrap();
+    let stderr = String::from_utf8(epipole(&["odometry", path(&frames)]).stderr).unwrap();
     assert!(
-        told.contains("taking 480 px") && told.contains("to be refined"),
-        "{told}"
+        stderr.contains("taking 480 px") && stderr.contains("to be refined"),
+        "{stderr}"
     );
     // Reduced frames are a quarter as large; numbers are in their pixels.
     let (reduced_px, _) = run(&["--max-megapixels", "0.03", "--keep-focal"]);
@@ -310,7 +313,7 @@ fn a_focal_length_that_is_a_guess_is_refined_at_the_end() {
 fn cameras_that_do_not_fit_the_frames_are_refused() {
     let folder = Folder::new("odometry-camera");
     let cameras: Vec<PosedCamera> = (0..2).map(along).collect();
-    folder.photographs("frames", &cameras, SIZE);
+    folder.write_photos("frames", &cameras, SIZE);
     let camera = lens::write(&folder, &lens::camera(LensKind::Brown));
     let frames = folder.file("frames");
     let arguments = ["odometry", path(&frames), "--camera", path(&camera)];

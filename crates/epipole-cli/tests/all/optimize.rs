@@ -137,7 +137,7 @@ fn noise_leaves_the_cost_that_statistics_predict_and_losses_bear_outliers() {
 }
 
 #[test]
-fn tolerances_say_when_the_steps_end() {
+fn tolerances_end_the_steps() {
     let folder = Folder::new("ba-tolerances");
     let mut problem = problem(&MultiViewProblemOptions::default());
     disturb(&mut problem);

@@ -22,24 +22,24 @@ fn step() -> RigidTransform {
 }
 
 /// A camera that looks up, right and askew.
-fn turn() -> RigidTransform {
+fn rotation_only() -> RigidTransform {
     RigidTransform::rotation(Vector3::new(0.03, 0.12, -0.02))
 }
 
-fn photographs(folder: &Folder, motion: &RigidTransform) -> ([PosedCamera; 2], [PathBuf; 2]) {
+fn write_pair(folder: &Folder, motion: &RigidTransform) -> ([PosedCamera; 2], [PathBuf; 2]) {
     let cameras = [
         moved(SIZE, &RigidTransform::identity()),
         moved(SIZE, motion),
     ];
     let names = ["a.png", "b.png"];
     for (camera, name) in cameras.iter().zip(names) {
-        folder.photograph(name, camera, SIZE);
+        folder.write_photo(name, camera, SIZE);
     }
     (cameras, names.map(|name| folder.file(name)))
 }
 
 /// A result and the messages beside it.
-fn told(arguments: &[&str]) -> (Value, String) {
+fn run(arguments: &[&str]) -> (Value, String) {
     let output = epipole(&[arguments, &["--json"]].concat());
     assert_eq!(output.status.code(), Some(0), "{arguments:?}");
     (parse(&output), String::from_utf8(output.stderr).unwrap())
@@ -47,12 +47,12 @@ fn told(arguments: &[&str]) -> (Value, String) {
 
 /// Both cameras have one focal length, but the second photograph is in portrait format.
 #[test]
-fn each_photograph_has_its_own_middle() {
+fn each_photo_has_its_own_center() {
     let folder = Folder::new("pair-middle");
-    let (cameras, [a, b]) = photographs(&folder, &step());
+    let (cameras, [a, b]) = write_pair(&folder, &step());
     let upright = folder.file("upright.png");
-    let turned = image::imageops::rotate90(&image::open(&b).unwrap().to_rgb8());
-    turned.save(&upright).unwrap();
+    let rotated = image::imageops::rotate90(&image::open(&b).unwrap().to_rgb8());
+    rotated.save(&upright).unwrap();
     let focal = cameras[0].camera.intrinsics.fu_px().to_string();
     // Clockwise in the picture: x goes down, y goes left.
     let roll = RigidTransform::rotation(Vector3::z() * core::f64::consts::FRAC_PI_2);
@@ -87,7 +87,7 @@ fn each_photograph_has_its_own_middle() {
             &folder,
             &arguments,
             1,
-            "--k cannot be right for both photographs, as one is 640 × 480 and the other 480 × 640",
+            "--k cannot be right for both images, as one is 640 × 480 and the other 480 × 640",
         );
     }
 }
@@ -112,43 +112,43 @@ fn rows(random: &mut Random, motion: &RigidTransform, noise_px: f64) -> String {
 }
 
 #[test]
-fn fits_of_essential_matrices_say_that_the_camera_may_have_only_turned() {
+fn fits_of_essential_matrices_warn_of_pure_rotations() {
     let folder = Folder::new("fit-turn");
     let mut random = Random::new(6);
     let unmoved = RigidTransform::identity();
     for (motion, noise_px, expected) in [
         (step(), 0.5, false),
-        (turn(), 0.5, true),
-        (turn(), 0.0, true),
+        (rotation_only(), 0.5, true),
+        (rotation_only(), 0.0, true),
         (unmoved, 0.0, true),
         (unmoved, 0.3, true),
     ] {
         let file = folder.write("matches.txt", &rows(&mut random, &motion, noise_px));
-        let (result, told) = told(&["fit", "--model", "essential", path(&file), "--k", K]);
+        let (result, stderr) = run(&["fit", "--model", "essential", path(&file), "--k", K]);
         assert_eq!(result["could_be_rotation"], expected, "{motion} {noise_px}");
-        let warned = told.contains("warning: a pure rotation explains 1");
-        assert_eq!(warned, expected, "{motion} {noise_px}: {told}");
-        assert_eq!(result["could_be_chance"], false);
+        let warned = stderr.contains("warning: a pure rotation explains 1");
+        assert_eq!(warned, expected, "{motion} {noise_px}: {stderr}");
+        assert_eq!(result["could_be_random"], false);
     }
     let file = folder.write("matches.txt", &rows(&mut random, &step(), 0.5));
-    let (result, _) = told(&["fit", "--model", "fundamental", path(&file)]);
+    let (result, _) = run(&["fit", "--model", "fundamental", path(&file)]);
     assert!(result.get("could_be_rotation").is_none());
 }
 
 /// Inliers on one line do not constrain the model beside it, and a homography fits any two matches
 /// there.
 #[test]
-fn homographies_of_lines_say_so() {
+fn homographies_of_lines_are_reported() {
     let folder = Folder::new("fit-line");
     let mut random = Random::new(8);
     let mut matches = |num_beside: usize, noise_px: f64| -> String {
         let mut row = |u: f64, v: f64| {
-            let mut near = |x: f64| x + noise_px * random.normal();
+            let mut noisy = |x: f64| x + noise_px * random.normal();
             let numbers = [
-                near(u),
-                near(v),
-                near(1.1 * u + 20.0),
-                near(0.9 * v + 0.1 * u),
+                noisy(u),
+                noisy(v),
+                noisy(1.1 * u + 20.0),
+                noisy(0.9 * v + 0.1 * u),
             ];
             format!(
                 "{} {} {} {}\n",
@@ -158,10 +158,10 @@ fn homographies_of_lines_say_so() {
         let on_line = (0..60).map(|i| f64::from(i) * 9.0);
         let mut text: String = on_line.map(|u| row(30.0 + u, 400.0 - 0.5 * u)).collect();
         for place in 0..num_beside {
-            let turns = 2.4 * place as f64;
+            let angle_rad = 2.4 * place as f64;
             text += &row(
-                300.0 + 250.0 * libm::cos(turns),
-                120.0 + 90.0 * libm::sin(turns),
+                300.0 + 250.0 * libm::cos(angle_rad),
+                120.0 + 90.0 * libm::sin(angle_rad),
             );
         }
         text
@@ -169,11 +169,11 @@ fn homographies_of_lines_say_so() {
     for noise_px in [1e-9, 0.1, 0.5] {
         for (num_beside, expected) in [(0, true), (2, true), (20, false)] {
             let file = folder.write("matches.txt", &matches(num_beside, noise_px));
-            let (result, told) = told(&["fit", "--model", "homography", path(&file)]);
+            let (result, stderr) = run(&["fit", "--model", "homography", path(&file)]);
             let sentence = result["not_determined"].as_str().unwrap_or_default();
             let is_line = sentence.contains("are collinear in image 1");
             assert_eq!(is_line, expected, "{noise_px} {num_beside}: {sentence}");
-            assert_eq!(told.contains("are collinear"), expected, "{told}");
+            assert_eq!(stderr.contains("are collinear"), expected, "{stderr}");
         }
     }
 }
@@ -181,7 +181,7 @@ fn homographies_of_lines_say_so() {
 /// Without intrinsics a rotation cannot be distinguished from a plane, but both can from a scene
 /// with depth.
 #[test]
-fn fits_without_intrinsics_say_what_they_leave_open() {
+fn fits_without_intrinsics_report_what_is_undetermined() {
     let folder = Folder::new("fit-open");
     let mut random = Random::new(7);
     let unmoved = RigidTransform::identity();
@@ -189,23 +189,23 @@ fn fits_without_intrinsics_say_what_they_leave_open() {
         ("fundamental", step(), 0.5, None),
         (
             "fundamental",
-            turn(),
+            rotation_only(),
             0.5,
             Some("a plane, or the camera only rotated"),
         ),
         (
             "fundamental",
-            turn(),
+            rotation_only(),
             0.0,
             Some("a plane, or the camera only rotated"),
         ),
         ("fundamental", unmoved, 0.3, Some("hardly moved")),
-        ("homography", turn(), 0.3, None),
+        ("homography", rotation_only(), 0.3, None),
         ("homography", unmoved, 0.0, Some("hardly moved")),
         ("homography", unmoved, 0.3, Some("hardly moved")),
     ] {
         let file = folder.write("matches.txt", &rows(&mut random, &motion, noise_px));
-        let (result, told) = told(&["fit", "--model", model, path(&file)]);
+        let (result, stderr) = run(&["fit", "--model", model, path(&file)]);
         let sentence = result["not_determined"].as_str();
         match expected {
             Some(words) => {
@@ -213,7 +213,7 @@ fn fits_without_intrinsics_say_what_they_leave_open() {
                     sentence.unwrap().contains(words),
                     "{model} {motion}: {sentence:?}"
                 );
-                assert!(told.contains(words), "{model} {motion}: {told}");
+                assert!(stderr.contains(words), "{model} {motion}: {stderr}");
             }
             None => {
                 assert!(sentence.is_none(), "{model} {motion}: {sentence:?}");
@@ -236,7 +236,7 @@ fn a_row_beyond_all_images_is_left_out() {
         } else {
             &[]
         };
-        let (result, _) = told(&[&["fit", "--model", model, path(&file)], intrinsics].concat());
+        let (result, _) = run(&[&["fit", "--model", model, path(&file)], intrinsics].concat());
         assert_eq!(result["num_left_out"], 1, "{model}");
         let mask = numbers(&result["inliers"]);
         assert!(mask.len() == 151 && mask[150] == 0.0, "{model}");
@@ -244,17 +244,17 @@ fn a_row_beyond_all_images_is_left_out() {
 }
 
 #[test]
-fn photographs_of_a_turn_have_no_direction() {
+fn photos_of_a_rotation_have_no_direction() {
     let folder = Folder::new("pair-turn");
-    let (cameras, [a, b]) = photographs(&folder, &turn());
+    let (cameras, [a, b]) = write_pair(&folder, &rotation_only());
     let k = k(&cameras[0]);
     let pair = |second: &PathBuf, model: &str, more: &[&str]| {
         let arguments = ["two-view", path(&a), path(second), "--model", model];
-        told(&[&arguments, more].concat())
+        run(&[&arguments, more].concat())
     };
-    for (second, truth) in [(&a, RigidTransform::identity()), (&b, turn())] {
-        let (result, told) = pair(second, "essential", &["--k", &k]);
-        assert!(told.contains("warning: a pure rotation"), "{told}");
+    for (second, truth) in [(&a, RigidTransform::identity()), (&b, rotation_only())] {
+        let (result, stderr) = pair(second, "essential", &["--k", &k]);
+        assert!(stderr.contains("warning: a pure rotation"), "{stderr}");
         assert_eq!(result["model_kind"], "essential");
         assert_eq!(result["configuration"], "panoramic");
         let found = motion(&result["cam2_from_cam1"]);
@@ -262,31 +262,37 @@ fn photographs_of_a_turn_have_no_direction() {
         assert_eq!(numbers(&result["cam2_from_cam1"]["translation"]), [0.0; 3]);
     }
     // Known intrinsics distinguish a rotation from a plane, pixels alone do not.
-    let (result, told) = pair(&b, "homography", &["--k", &k]);
-    assert!(told.is_empty(), "{told}");
+    let (result, stderr) = pair(&b, "homography", &["--k", &k]);
+    assert!(stderr.is_empty(), "{stderr}");
     assert_eq!(result["configuration"], "panoramic");
     let found = motion(&result["cam2_from_cam1"]);
-    assert!(found.rotation.angle_to(&turn().rotation).to_degrees() < 0.2);
-    let (result, told) = pair(&b, "homography", &[]);
+    assert!(
+        found
+            .rotation
+            .angle_to(&rotation_only().rotation)
+            .to_degrees()
+            < 0.2
+    );
+    let (result, stderr) = pair(&b, "homography", &[]);
     assert_eq!(result["configuration"], "planar");
     assert_eq!(result["cam2_from_cam1"], Value::Null);
     // With an unknown focal length, though, a rotation explains them.
     let focal_px: f64 = k.split(',').next().unwrap().parse().unwrap();
-    let sentence = told.split("with a focal length near ").nth(1).unwrap();
-    let near: f64 = sentence.split(' ').next().unwrap().parse().unwrap();
-    assert!((near / focal_px - 1.0).abs() < 0.05, "{told}");
+    let sentence = stderr.split("with a focal length near ").nth(1).unwrap();
+    let near_px: f64 = sentence.split(' ').next().unwrap().parse().unwrap();
+    assert!((near_px / focal_px - 1.0).abs() < 0.05, "{stderr}");
 }
 
 #[test]
-fn automatic_choices_tell_that_they_ended_early() {
+fn automatic_choices_report_that_they_ended_early() {
     let folder = Folder::new("pair-exhausted");
-    let (cameras, [a, b]) = photographs(&folder, &step());
+    let (cameras, [a, b]) = write_pair(&folder, &step());
     let k = k(&cameras[0]);
     for camera in [&[][..], &["--k", &k]] {
         let base = ["two-view", path(&a), path(&b)];
-        let (_, enough) = told(&[&base, camera].concat());
+        let (_, enough) = run(&[&base, camera].concat());
         assert!(enough.is_empty(), "{enough}");
-        let (_, few) = told(&[&base, camera, &["--max-iterations", "2"]].concat());
+        let (_, few) = run(&[&base, camera, &["--max-iterations", "2"]].concat());
         assert!(
             few.contains("warning: ended by --max-iterations 2: with so few inliers "),
             "{few}"

@@ -19,14 +19,14 @@ fn three(folder: &Folder, size: (u32, u32)) -> Vec<PathBuf> {
     let take = |n: usize| {
         let name = format!("{n}.png");
         let step = RigidTransform::new(Vector3::new(-0.12 * n as f64, 0.0, 0.0), Vector3::zeros());
-        folder.photograph(&name, &moved(size, &step), size);
+        folder.write_photo(&name, &moved(size, &step), size);
         folder.file(&name)
     };
     (0..3).map(take).collect()
 }
 
 #[test]
-fn reduced_photographs_keep_the_focal_length_of_their_files() {
+fn downscaled_photos_retain_the_focal_length_of_their_files() {
     let folder = Folder::new("reduced");
     let files = three(&folder, (480, 360));
     let out = folder.file("out");
@@ -131,7 +131,7 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
     fails(&folder, &arguments, 1, "the file has no orientation");
     // Structure from motion continues without the camera for that photograph, with a warning.
     let result = folder.file("result");
-    let told = epipole(&[
+    let output = epipole(&[
         "sfm",
         path(&silent),
         path(&lying),
@@ -140,11 +140,11 @@ fn a_lens_belongs_to_the_sensor_however_the_camera_was_held() {
         "-o",
         path(&result),
     ]);
-    let told = String::from_utf8(told.stderr).unwrap();
-    assert!(told.contains("is used for 1 of 2 images"), "{told}");
+    let output = String::from_utf8(output.stderr).unwrap();
+    assert!(output.contains("is used for 1 of 2 images"), "{output}");
     assert!(
-        told.contains("is upright, and its file has no orientation"),
-        "{told}"
+        output.contains("is upright, and its file has no orientation"),
+        "{output}"
     );
 }
 
@@ -191,7 +191,7 @@ fn of_each_part_of_a_video_the_sharpest_frame_is_taken() {
 }
 
 #[test]
-fn photographs_are_written_as_the_model_speaks_of_them() {
+fn photos_are_written_as_the_model_describes_them() {
     let folder = Folder::new("images");
     let files = three(&folder, (480, 360));
     let out = folder.file("out");
@@ -234,24 +234,24 @@ fn photographs_are_written_as_the_model_speaks_of_them() {
         assert!(off.sum::<f64>() / (240.0 * 180.0 * 3.0) < 4.0);
     }
     // Neither input files nor other results are overwritten.
-    let given: Vec<PathBuf> = (0..3)
+    let inputs: Vec<PathBuf> = (0..3)
         .map(|n| out.join(format!("images/{n}.jpg")))
         .collect();
     let refused = |arguments: &[String], why: &str| {
         let arguments: Vec<&str> = arguments.iter().map(|a| &**a).collect();
         fails(&folder, &arguments, 2, why);
     };
-    let before = std::fs::read(&given[0]).unwrap();
+    let before = std::fs::read(&inputs[0]).unwrap();
     let smaller = ["--max-megapixels", "0.03"];
-    refused(&sfm(&given, &out, &smaller), "would write over it");
-    assert_eq!(std::fs::read(&given[0]).unwrap(), before);
+    refused(&sfm(&inputs, &out, &smaller), "would write over it");
+    assert_eq!(std::fs::read(&inputs[0]).unwrap(), before);
     let beside = folder.file("0.jpg");
-    std::fs::copy(&given[0], &beside).unwrap();
+    std::fs::copy(&inputs[0], &beside).unwrap();
     let twice = [files[0].clone(), beside];
     let other = folder.file("other");
     refused(
         &sfm(&twice, &other, &smaller),
-        "two photographs would be written to ",
+        "two images would be written to ",
     );
 }
 
@@ -263,20 +263,20 @@ fn a_sensor_width_gives_the_focal_length_of_millimeters() {
         let image = image::open(file).unwrap().into_rgb8();
         exif::write_png(file, &image, exif::millimeters(5));
     }
-    let told = |more: &[&str]| {
+    let output = |more: &[&str]| {
         let photos = [path(&files[0]), path(&files[1])];
         let out = folder.file("out");
         let arguments = [&["sfm", "-o", path(&out)], &photos[..], more].concat();
         String::from_utf8(epipole(&arguments).stderr).unwrap()
     };
-    let without = told(&[]);
+    let without = output(&[]);
     assert!(
         without.contains("taking 384 px") && without.contains("have 5.0 mm"),
         "{without}"
     );
-    let with = told(&["--sensor-width-mm", "4"]);
+    let with = output(&["--sensor-width-mm", "4"]);
     assert!(
-        with.contains("taking 400 px, from the photograph's EXIF data"),
+        with.contains("taking 400 px, from the image's EXIF data"),
         "{with}"
     );
     let inspected = json(&["inspect", path(&files[0])]);

@@ -242,30 +242,30 @@ fn points_without_a_pose_are_refused_for_their_reason() {
 }
 
 #[test]
-fn wrong_units_of_pixels_are_told() {
+fn wrong_units_of_pixels_are_reported() {
     let folder = Folder::new("pnp-units");
     let file = points_file(&folder, "points.txt", 40);
-    let told =
+    let stderr_of =
         |k: &str| String::from_utf8(epipole(&["pnp", path(&file), "--k", k]).stderr).unwrap();
-    assert!(told("100,100,40,30").contains("belongs to an image of about 80 pixels"));
+    assert!(stderr_of("100,100,40,30").contains("belongs to an image of about 80 pixels"));
     let text = std::fs::read_to_string(&file).unwrap();
-    let shares = text.lines().map(|line| {
+    let fractions = text.lines().map(|line| {
         let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
         let [x, y, z, u, v] = numbers[..] else {
             panic!()
         };
         format!("{x} {y} {z} {} {}\n", u / 640.0, v / 480.0)
     });
-    folder.write("points.txt", &shares.collect::<String>());
-    assert!(told(K).contains("look like fractions of the image"));
+    folder.write("points.txt", &fractions.collect::<String>());
+    assert!(stderr_of(K).contains("look like fractions of the image"));
 }
 
 #[test]
-fn reversed_and_exchanged_axes_are_told() {
+fn reversed_and_exchanged_axes_are_reported() {
     let folder = Folder::new("pnp-axes");
     let file = points_file(&folder, "points.txt", 40);
     let text = std::fs::read_to_string(&file).unwrap();
-    let told = |change: &dyn Fn([f64; 5]) -> [f64; 5]| {
+    let warnings_of = |change: &dyn Fn([f64; 5]) -> [f64; 5]| {
         let lines = text.lines().map(|line| {
             let numbers: Vec<f64> = line.split(' ').map(|word| word.parse().unwrap()).collect();
             let row = change(numbers.try_into().unwrap());
@@ -281,11 +281,11 @@ fn reversed_and_exchanged_axes_are_told() {
         |[x, y, z, u, v]| [x, y, z, v, u],
     ];
     for change in mirrored {
-        let sentence = told(&change);
+        let sentence = warnings_of(&change);
         assert!(
             sentence.contains("where the image is mirrored"),
             "{sentence}"
         );
     }
-    assert!(!told(&|row| row).contains("mirrored"));
+    assert!(!warnings_of(&|row| row).contains("mirrored"));
 }

@@ -14,11 +14,11 @@ fn cameras() -> Vec<PosedCamera> {
     let around = |n: usize| {
         let angle = 0.1 * (n as f64 - 2.0);
         let pivot = Vector3::new(0.0, 0.06 * (n % 2) as f64, 1.3);
-        let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+        let pose = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
         moved(
             SIZE,
             &RigidTransform::new(
-                pivot - turn * Vector3::new(0.0, 0.0, 1.3),
+                pivot - pose * Vector3::new(0.0, 0.0, 1.3),
                 Vector3::y() * angle,
             ),
         )
@@ -26,10 +26,10 @@ fn cameras() -> Vec<PosedCamera> {
     (0..6).map(around).collect()
 }
 
-fn photographs(folder: &Folder, cameras: &[PosedCamera]) -> PathBuf {
+fn write_photos(folder: &Folder, cameras: &[PosedCamera]) -> PathBuf {
     std::fs::create_dir_all(folder.file("photos")).unwrap();
     for (n, camera) in cameras.iter().enumerate() {
-        folder.photograph(&format!("photos/{n}.png"), camera, SIZE);
+        folder.write_photo(&format!("photos/{n}.png"), camera, SIZE);
     }
     folder.file("photos")
 }
@@ -52,7 +52,7 @@ fn worst_m(found: &[Point3<f64>], truth: &[Point3<f64>]) -> f64 {
 fn positions_of_a_file_give_the_result_their_frame_and_meters() {
     let folder = Folder::new("positions");
     let cameras = cameras();
-    let photos = photographs(&folder, &cameras);
+    let photos = write_photos(&folder, &cameras);
     let truth: Vec<Point3<f64>> = cameras.iter().map(PosedCamera::center_in_world).collect();
     let focal_px = cameras[0].camera.intrinsics.fu_px().to_string();
     let out = folder.file("out");
@@ -173,8 +173,8 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
         "missing.txt",
     ];
     fails(&folder, &missing, 1, "there is no such file");
-    let alone = ["sfm", path(&photos), "-o", path(&out), "--geodetic"];
-    fails(&folder, &alone, 2, "--positions");
+    let without_positions = ["sfm", path(&photos), "-o", path(&out), "--geodetic"];
+    fails(&folder, &without_positions, 2, "--positions");
     let silent = [
         "sfm",
         path(&photos),
@@ -189,10 +189,10 @@ fn positions_of_a_file_give_the_result_their_frame_and_meters() {
 /// Photographs of a garden in Sydney say where they were taken, some meters apart; the still life
 /// is its model.
 #[test]
-fn photographs_say_where_they_were_taken() {
+fn photos_contain_their_positions() {
     let folder = Folder::new("positions-exif");
     let cameras = cameras();
-    let photos = photographs(&folder, &cameras);
+    let photos = write_photos(&folder, &cameras);
     let out = folder.file("out");
     let origin = Geodetic {
         latitude_deg: -33.86,
@@ -250,7 +250,7 @@ fn photographs_say_where_they_were_taken() {
 fn lenses_that_are_not_alike_are_refined_by_themselves() {
     let folder = Folder::new("lenses");
     let cameras = cameras();
-    let photos = photographs(&folder, &cameras);
+    let photos = write_photos(&folder, &cameras);
     for n in [1, 3, 5] {
         let file = photos.join(format!("{n}.png"));
         let image = image::open(&file).unwrap();

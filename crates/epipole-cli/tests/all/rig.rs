@@ -1,6 +1,6 @@
 //! `epipole rectify --rig`: photographs of a calibrated stereo rig.
 
-use crate::common::lens::{self, KINDS, SIZE, camera_json, wall_photograph};
+use crate::common::lens::{self, KINDS, SIZE, camera_json, wall_photo};
 use crate::common::{Folder, epipole, fails, json, numbers, parse, path};
 use epipole::camera::{Camera, Intrinsics, LensKind, RigidTransform};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
@@ -48,7 +48,7 @@ const WALL_M: f64 = 0.8;
 
 struct Rig {
     folder: Folder,
-    photographs: [PathBuf; 2],
+    photos: [PathBuf; 2],
     file: PathBuf,
 }
 
@@ -56,17 +56,17 @@ fn rig(kind: LensKind, name: &str) -> Rig {
     let folder = Folder::new(name);
     let [left, right] = cameras(kind);
     // Not quite square to the wall.
-    let turn = RigidTransform::rotation(Vector3::new(0.1, -0.15, 0.05));
-    let at = turn * RigidTransform::translation(0.3, -0.2, WALL_M);
-    let left_photograph = wall_photograph(&left, &at);
-    let right_photograph = wall_photograph(&right, &(right_from_left() * at));
+    let rotation = RigidTransform::rotation(Vector3::new(0.1, -0.15, 0.05));
+    let at = rotation * RigidTransform::translation(0.3, -0.2, WALL_M);
+    let left_photo = wall_photo(&left, &at);
+    let right_photo = wall_photo(&right, &(right_from_left() * at));
     let files = ["left-in.png", "right-in.png"].map(|name| folder.file(name));
-    left_photograph.save(&files[0]).unwrap();
-    right_photograph.save(&files[1]).unwrap();
+    left_photo.save(&files[0]).unwrap();
+    right_photo.save(&files[1]).unwrap();
     let file = folder.write("rig.json", &rig_json(&left, &right).to_string());
     Rig {
         folder,
-        photographs: files,
+        photos: files,
         file,
     }
 }
@@ -74,11 +74,11 @@ fn rig(kind: LensKind, name: &str) -> Rig {
 /// Matches in the rectified images are in the same row, and Q gives their positions in meters, on a
 /// wall at a known distance.
 #[test]
-fn photographs_of_a_rig_are_rectified_in_meters() {
+fn photos_of_a_rig_are_rectified_in_meters() {
     for kind in KINDS {
         let Rig {
             folder,
-            photographs: [a, b],
+            photos: [a, b],
             file,
         } = rig(kind, &format!("rig-{}", kind.name()));
         let out = folder.file("out");
@@ -121,7 +121,7 @@ fn photographs_of_a_rig_are_rectified_in_meters() {
 fn rigs_that_do_not_fit_get_a_sentence() {
     let rig = rig(LensKind::Brown, "rig-bad");
     let folder = &rig.folder;
-    let [a, b] = rig.photographs.each_ref().map(|file| path(file));
+    let [a, b] = rig.photos.each_ref().map(|file| path(file));
     let out = folder.file("out");
     let [left, right] = cameras(LensKind::Brown);
     let whole = rig_json(&left, &right);
@@ -130,8 +130,8 @@ fn rigs_that_do_not_fit_get_a_sentence() {
         change(&mut changed);
         folder.write(name, &changed.to_string())
     };
-    let refused = |file: &PathBuf, photographs: [&str; 2], expected: &str| {
-        let [a, b] = photographs;
+    let refused = |file: &PathBuf, photos: [&str; 2], expected: &str| {
+        let [a, b] = photos;
         let arguments = ["rectify", a, b, "--rig", path(file), "-o", path(&out)];
         fails(folder, &arguments, 1, expected);
     };
@@ -173,7 +173,7 @@ fn rigs_that_do_not_fit_get_a_sentence() {
         (
             "together.json",
             &|v| motion(v, "translation", json!([0, 0, 0])),
-            "both cameras stand at one place",
+            "both cameras are at the same place",
         ),
     ];
     for (name, change, expected) in cases {
@@ -183,7 +183,7 @@ fn rigs_that_do_not_fit_get_a_sentence() {
     refused(
         &rig.file,
         [a, path(&small)],
-        "small.png: the right camera of --rig was calibrated for 420 × 420 as the sensor gives them, but this photograph is 420 × 400",
+        "small.png: the right camera of --rig was calibrated for 420 × 420 as the sensor gives them, but this image is 420 × 400",
     );
     refused(
         &folder.file("none.json"),

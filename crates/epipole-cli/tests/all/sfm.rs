@@ -15,8 +15,8 @@ fn around(n: usize) -> PosedCamera {
     let angle = 0.1 * (n as f64 - 2.0);
     // Rotations about a point 1.3 m in front of the camera.
     let pivot = Vector3::new(0.0, 0.0, 1.3);
-    let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
-    let shift = pivot - turn * pivot;
+    let pose = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+    let shift = pivot - pose * pivot;
     moved(SIZE, &RigidTransform::new(shift, Vector3::y() * angle))
 }
 
@@ -35,7 +35,7 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 fn an_unknown_focal_length_is_refined() {
     let folder = Folder::new("sfm-focal");
     let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let truth = cameras[0].camera.intrinsics.fu_px();
     let run = |more: &[&str]| {
@@ -49,8 +49,8 @@ fn an_unknown_focal_length_is_refined() {
         )
     };
     let guess = 480.0;
-    let (kept, refined, guessed_px) = run(&["--keep-focal"]);
-    assert!(!refined && (kept - guess).abs() < 1e-9);
+    let (fixed, refined, guessed_px) = run(&["--keep-focal"]);
+    assert!(!refined && (fixed - guess).abs() < 1e-9);
     let (found, refined, refined_px) = run(&[]);
     println!("truth {truth}: found {found}, {guessed_px} px, then {refined_px} px");
     assert!(
@@ -64,7 +64,7 @@ fn an_unknown_focal_length_is_refined() {
 /// Cameras that go straight ahead fit any focal length: the result is not said to be sound. Around
 /// a table it is, and a given one is not judged.
 #[test]
-fn a_way_straight_ahead_does_not_tell_the_focal_length() {
+fn a_straight_path_does_not_determine_the_focal_length() {
     let folder = Folder::new("sfm-ahead");
     let ahead = |n: usize| {
         moved(
@@ -80,21 +80,21 @@ fn a_way_straight_ahead_does_not_tell_the_focal_length() {
         ),
         ("around", (0..5).map(around).collect(), Value::Bool(true)),
     ] {
-        folder.photographs(name, &cameras, SIZE);
+        folder.write_photos(name, &cameras, SIZE);
         let (photos, out) = (folder.file(name), folder.file("out"));
         let more = ["--min-start-angle-deg", "2"];
         let found = json(&[&["sfm", path(&photos), "-o", path(&out)], &more[..]].concat());
         assert_eq!(found["focal_determined"], determined, "{name}: {found}");
         let k = k(&cameras[0]);
-        let given = json(
+        let known = json(
             &[
                 &["sfm", path(&photos), "-o", path(&out), "--k", &k],
                 &more[..],
             ]
             .concat(),
         );
-        assert_eq!(given["focal_determined"], Value::Null);
-        assert_eq!(given["lens_refined"], false);
+        assert_eq!(known["focal_determined"], Value::Null);
+        assert_eq!(known["lens_refined"], false);
     }
 }
 
@@ -103,7 +103,7 @@ fn a_way_straight_ahead_does_not_tell_the_focal_length() {
 fn commands_find_the_same_features() {
     let folder = Folder::new("sfm-features");
     let cameras: Vec<PosedCamera> = (0..2).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
     let files = [0, 1].map(|n| folder.file(&format!("photos/{n}.png")));
     let options = epipole::sfm::PhotoOptions::default();
     let features = files.each_ref().map(|file| {
@@ -135,7 +135,7 @@ fn commands_find_the_same_features() {
 fn every_step_of_a_reconstruction_can_be_set() {
     let folder = Folder::new("sfm-set");
     let cameras: Vec<PosedCamera> = (0..3).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
     let (photos, out) = (folder.file("photos"), folder.file("out"));
     let k = k(&cameras[0]);
     let run = |more: &[&str]| {
@@ -182,10 +182,10 @@ fn every_step_of_a_reconstruction_can_be_set() {
 }
 
 #[test]
-fn photographs_become_cameras_and_points() {
+fn photos_become_cameras_and_points() {
     let folder = Folder::new("sfm");
     let cameras: Vec<PosedCamera> = (0..5).map(around).collect();
-    folder.photographs("photos", &cameras, SIZE);
+    folder.write_photos("photos", &cameras, SIZE);
     // Files that are not photographs are skipped.
     folder.write("photos/notes.txt", "not a photograph");
     let (photos, out) = (folder.file("photos"), folder.file("out"));
@@ -257,13 +257,13 @@ fn photographs_become_cameras_and_points() {
 }
 
 #[test]
-fn photographs_that_do_not_fit_together_are_refused() {
+fn photos_that_do_not_fit_together_are_rejected() {
     let folder = Folder::new("sfm-bad");
-    folder.photographs("photos", &[around(0)], SIZE);
+    folder.write_photos("photos", &[around(0)], SIZE);
     std::fs::create_dir(folder.file("empty")).unwrap();
     let photo = folder.file("photos/0.png");
     let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
-    folder.photograph("back.png", &moved(SIZE, &back), SIZE);
+    folder.write_photo("back.png", &moved(SIZE, &back), SIZE);
     let (out, back) = (folder.file("out"), folder.file("back.png"));
     let blank = [
         folder.blank("blank1.png", SIZE),
@@ -295,10 +295,7 @@ fn photographs_that_do_not_fit_together_are_refused() {
             vec![path(&photo), path(&again)],
             "no two images can start a reconstruction; 0.png: it was taken from nearly the same place",
         ),
-        (
-            vec![path(&empty)],
-            "there are no photographs in this folder",
-        ),
+        (vec![path(&empty)], "there are no images in this folder"),
         (
             vec![path(&photo), path(&missing)],
             "missing.png: there is no such file",
@@ -326,7 +323,7 @@ impl Known {
     fn new(name: &str) -> Self {
         let folder = Folder::new(name);
         let cameras: Vec<PosedCamera> = (0..4).map(around).collect();
-        folder.photographs("photos", &cameras, SIZE);
+        folder.write_photos("photos", &cameras, SIZE);
         let (photos, model) = (folder.file("photos"), folder.file("model"));
         let focal_px = cameras[0].camera.intrinsics.fu_px().to_string();
         let words = ["sfm", path(&photos), "--focal-px", &focal_px, "-o"];
@@ -397,7 +394,7 @@ fn points_are_found_where_a_model_has_the_cameras() {
 }
 
 #[test]
-fn poses_of_other_photographs_are_told() {
+fn poses_of_other_photos_are_reported() {
     let known = Known::new("sfm-other-poses");
     let rename = |from: &str, to: &str| {
         std::fs::rename(known.photos.join(from), known.photos.join(to)).unwrap();
@@ -419,7 +416,7 @@ fn poses_of_other_photographs_are_told() {
     assert!(few * 3 < known.num_points, "{few}");
     // One photograph, points without images, a focal length beside the model's, no name in common.
     let (photos, model) = (&known.photos, &known.model);
-    let one = "points need two photographs at least, and 1 is given";
+    let one = "points need at least two images, but the input has 1";
     known.fails(&photos.join("0.png"), model, &[], 1, one);
     let cloud = model.join("points.ply");
     known.fails(
@@ -434,6 +431,6 @@ fn poses_of_other_photographs_are_told() {
     for n in 0..3 {
         rename(&format!("{n}.png"), &format!("y{n}.png"));
     }
-    let none = "it has poses of 0 of the 4 photographs, and two are needed";
+    let none = "it has poses of 0 of the 4 images, and two are needed";
     known.fails(photos, model, &[], 1, none);
 }

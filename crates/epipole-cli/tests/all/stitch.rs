@@ -51,12 +51,16 @@ fn k() -> Intrinsics {
 }
 
 /// Cameras that turn to the right by 0.35 each, a little up and down.
-fn turns() -> Vec<Matrix3<f64>> {
-    let turn = |yaw: f64, pitch: f64| {
+fn rotations() -> Vec<Matrix3<f64>> {
+    let rotation = |yaw: f64, pitch: f64| {
         let [x, y] = [Vector3::x() * pitch, Vector3::y() * -yaw].map(Rotation3::from_scaled_axis);
         (x * y).into_inner()
     };
-    vec![turn(0.0, 0.03), turn(0.35, -0.02), turn(0.7, 0.01)]
+    vec![
+        rotation(0.0, 0.03),
+        rotation(0.35, -0.02),
+        rotation(0.7, 0.01),
+    ]
 }
 
 /// A photo of 2 × 2 samples a pixel.
@@ -79,8 +83,8 @@ fn photo(
 
 fn photos(folder: &Folder) {
     let names = ["left.jpg", "middle.jpg", "right.jpg"];
-    for ((turn, name), gain) in turns().iter().zip(names).zip([1.0, 0.9, 1.05]) {
-        let photo = photo(&(k().matrix() * turn), gain, world);
+    for ((rotation, name), gain) in rotations().iter().zip(names).zip([1.0, 0.9, 1.05]) {
+        let photo = photo(&(k().matrix() * rotation), gain, world);
         // The content tells the format, not the name.
         photo
             .save_with_format(folder.file(name), image::ImageFormat::Png)
@@ -93,10 +97,10 @@ fn apart(a: &Matrix3<f64>, b: &Matrix3<f64>) -> f64 {
     Rotation3::from_matrix_unchecked(a * b.transpose()).angle()
 }
 
-fn are_turns(result: &Value) {
+fn assert_rotations(result: &Value) {
     let rows = result["photos"].as_array().unwrap();
     let found: Vec<_> = rows.iter().map(|row| matrix(&row["rotation"])).collect();
-    let truth = turns();
+    let truth = rotations();
     for n in 1..3 {
         let (found, truth) = (
             found[n] * found[0].transpose(),
@@ -125,7 +129,7 @@ fn the_example_of_the_help_makes_a_panorama_of_the_world() {
         "{}",
         String::from_utf8_lossy(&output.stderr)
     );
-    are_turns(&result);
+    assert_rotations(&result);
     let focal_px = result["focal_px"].as_f64().unwrap();
     assert!((focal_px - FOCAL_PX).abs() < 0.01 * FOCAL_PX, "{focal_px}");
     assert!(result["mean_error_px"].as_f64().unwrap() < 0.5, "{result}");
@@ -148,7 +152,7 @@ fn the_example_of_the_help_makes_a_panorama_of_the_world() {
         // The middle of each photo, found on the picture by its angle from the first one's.
         for (u, v) in [(160.0, 120.0), (100.0, 80.0), (220.0, 150.0)] {
             let d = matrices[n].try_inverse().unwrap() * Vector3::new(u, v, 1.0);
-            let truth = world(&(turns()[0].transpose() * first * d))[0];
+            let truth = world(&(rotations()[0].transpose() * first * d))[0];
             let place = place(&matrices, &picture, &d, focal_px);
             let value = f64::from(picture.get_pixel(place.0, place.1).0[0]);
             pairs.push((value, truth));
@@ -177,12 +181,12 @@ fn place(
         let inverse = matrix.try_inverse().unwrap();
         let (last_u, last_v) = (f64::from(SIZE.0) - 1.0, f64::from(SIZE.1) - 1.0);
         for n in 0..=400 {
-            let share = f64::from(n) / 400.0;
+            let fraction = f64::from(n) / 400.0;
             let border = [
-                (share * last_u, 0.0),
-                (share * last_u, last_v),
-                (0.0, share * last_v),
-                (last_u, share * last_v),
+                (fraction * last_u, 0.0),
+                (fraction * last_u, last_v),
+                (0.0, fraction * last_v),
+                (last_u, fraction * last_v),
             ];
             for (u, v) in border {
                 let place = on(&(inverse * Vector3::new(u, v, 1.0)));
@@ -273,10 +277,10 @@ fn photos_that_do_not_fit_are_named() {
         );
     }
     let output = epipole(&["stitch", l, m, e, "-o", o]);
-    let told = String::from_utf8(output.stderr).unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(
-        told.contains("left out, for they overlap none of the others: elsewhere.png"),
-        "{told}"
+        stderr.contains("left out, for they overlap none of the others: elsewhere.png"),
+        "{stderr}"
     );
     let known = json(&[
         "stitch",
@@ -296,20 +300,20 @@ fn photos_that_do_not_fit_are_named() {
 
 /// Photos of the still life from two places have depth.
 #[test]
-fn a_camera_that_moved_is_told() {
+fn a_camera_that_moved_is_reported() {
     use crate::common::moved;
     use epipole::camera::RigidTransform;
     let folder = Folder::new("stitch-moved");
     for (name, shift) in [("a.png", 0.0), ("b.png", 0.3)] {
         let camera = moved((400, 300), &RigidTransform::translation(-shift, 0.0, 0.0));
-        folder.photograph(name, &camera, (400, 300));
+        folder.write_photo(name, &camera, (400, 300));
     }
     let [a, b, out] = ["a.png", "b.png", "out.png"].map(|name| folder.file(name));
     let output = epipole(&["stitch", path(&a), path(&b), "-o", path(&out)]);
-    let told = String::from_utf8(output.stderr).unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(
-        told.contains("the camera moved between a.png and b.png") || told.contains("overlap"),
-        "{told}"
+        stderr.contains("the camera moved between a.png and b.png") || stderr.contains("overlap"),
+        "{stderr}"
     );
 }
 
@@ -334,11 +338,11 @@ fn matches_that_contradict_all_others_are_no_parallax() {
     let arguments = ["stitch", a, b, c, d, "-o", path(&out)];
     let output = epipole(&[&arguments[..], &["--json"]].concat());
     let result = parse(&output);
-    let told = String::from_utf8(output.stderr).unwrap();
+    let stderr = String::from_utf8(output.stderr).unwrap();
     assert!(
-        told.contains("matches of a.png and d.png contradict all others")
-            && !told.contains("moved"),
-        "{told}"
+        stderr.contains("matches of a.png and d.png contradict all others")
+            && !stderr.contains("moved"),
+        "{stderr}"
     );
     assert_eq!(result["num_stitched"], 4);
     assert!(result["mean_error_px"].as_f64().unwrap() < 0.5, "{result}");

@@ -182,7 +182,7 @@ fn the_world_of_a_rig_is_its_left_camera() {
 }
 
 #[test]
-fn rays_without_a_point_are_told() {
+fn rays_without_a_point_are_reported() {
     let folder = Folder::new("triangulate-bad");
     let model = model(&folder);
     let matches = matches_file(&folder, [0, 1]);
@@ -224,12 +224,12 @@ fn rays_without_a_point_are_told() {
         );
     }
     let text = write_cameras(CameraFormat::Epipole, &Cameras::of(camera())).unwrap();
-    let alone = folder.write("alone.json", &text);
-    let without_pose = ["triangulate", m, path(&alone), path(&alone)];
+    let single = folder.write("alone.json", &text);
+    let without_pose = ["triangulate", m, path(&single), path(&single)];
     fails(&folder, &without_pose, 1, "there is no pose in it");
 
     let images = ["--images", "0, left.jpg,1, left.jpg"];
-    let told = |text: &str| {
+    let stderr_of = |text: &str| {
         let file = folder.write("odd.txt", text);
         let output = epipole(&["triangulate", path(&file), model, images[0], images[1]]);
         String::from_utf8(output.stderr).unwrap()
@@ -241,25 +241,25 @@ fn rays_without_a_point_are_told() {
             .unwrap()
     };
     let [a, b] = [far(&poses()[0]), far(&poses()[1])];
-    let said = told(&format!("{} {} {} {}\n", a.x, a.y, b.x, b.y));
+    let message = stderr_of(&format!("{} {} {} {}\n", a.x, a.y, b.x, b.y));
     assert!(
-        said.contains("rays of 1 of 1 matches are near parallel"),
-        "{said}"
+        message.contains("rays of 1 of 1 matches are near parallel"),
+        "{message}"
     );
     let swapped = std::fs::read_to_string(&matches).unwrap();
     let swapped = swapped.lines().map(|line| {
         let n: Vec<&str> = line.split(' ').collect();
         format!("{} {} {} {}\n", n[2], n[3], n[0], n[1])
     });
-    let said = told(&swapped.collect::<String>());
+    let message = stderr_of(&swapped.collect::<String>());
     assert!(
-        said.contains("meet behind a camera") || said.contains("on average"),
-        "{said}"
+        message.contains("meet behind a camera") || message.contains("on average"),
+        "{message}"
     );
-    let said = told("5000 100 320 240\n320 240 320 240\n");
+    let message = stderr_of("5000 100 320 240\n320 240 320 240\n");
     assert!(
-        said.contains("1 pixels are outside image 1, which has 640 × 480"),
-        "{said}"
+        message.contains("1 pixels are outside image 1, which has 640 × 480"),
+        "{message}"
     );
-    assert!(told("").contains("there is no match in it"));
+    assert!(stderr_of("").contains("there is no match in it"));
 }

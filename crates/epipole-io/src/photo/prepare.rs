@@ -94,14 +94,14 @@ impl PreparedPhoto {
         let Some(quarters) = quarters else {
             return Ok(None);
         };
-        let k = camera.intrinsics.turned(quarters, size);
+        let k = camera.intrinsics.rotated(quarters, size);
         let (width, height) = self.image.dimensions();
         Ok(Some(Camera {
             intrinsics: match self.full_size == (width, height) {
                 true => k,
                 false => k.resized(self.full_size, (width, height))?,
             },
-            lens: camera.lens.turned(quarters),
+            lens: camera.lens.rotated(quarters),
             width,
             height,
         }))
@@ -144,20 +144,20 @@ pub fn prepare_photo(bytes: &[u8], options: &PrepareOptions<'_>) -> Result<Prepa
         let has_size = |flat: &&Undistortion| (flat.map.width(), flat.map.height()) == size;
         options.undistortion.filter(has_size)
     };
-    let turn = |image: RgbImage| {
+    let rotate_upright = |image: RgbImage| {
         let mut image = DynamicImage::from(image);
         image.apply_orientation(decoded.orientation);
         image.into_rgb8()
     };
     let (image, intrinsics) = match of_size(sensor_size).zip(quarters) {
         Some((flat, quarters)) => (
-            turn(flat.map.warp(&decoded.image, &mut ())?),
-            Some(flat.intrinsics.turned(quarters, sensor_size)),
+            rotate_upright(flat.map.warp(&decoded.image, &mut ())?),
+            Some(flat.intrinsics.rotated(quarters, sensor_size)),
         ),
         None => {
-            let upright = turn(decoded.image);
-            let is_turned = upright.dimensions() != sensor_size;
-            match of_size(upright.dimensions()).filter(|_| is_turned) {
+            let upright = rotate_upright(decoded.image);
+            let is_rotated = upright.dimensions() != sensor_size;
+            match of_size(upright.dimensions()).filter(|_| is_rotated) {
                 Some(flat) => (flat.map.warp(&upright, &mut ())?, Some(flat.intrinsics)),
                 None => (upright, None),
             }
@@ -250,7 +250,7 @@ mod tests {
         let place = |u: u32, v: u32| nalgebra::Point2::new(f64::from(u), f64::from(v));
         let ray = flat.intrinsics.ray(&place(u, v));
         // Position and ray of the pixel after clockwise rotation.
-        for (orientation, at, turned) in [
+        for (orientation, at, rotated) in [
             (6, (59 - v, u), [-ray.y, ray.x]),
             (3, (79 - u, 59 - v), [-ray.x, -ray.y]),
             (8, (v, 79 - u), [ray.y, -ray.x]),
@@ -265,14 +265,15 @@ mod tests {
                 lying.image.get_pixel(u, v)
             );
             // With its distortion kept, the camera is rotated with the image.
-            let kept = prepare_photo(&file(&smooth(), orientation), &PrepareOptions::default());
-            let kept = kept.unwrap().camera(&camera()).unwrap().unwrap();
+            let distorted =
+                prepare_photo(&file(&smooth(), orientation), &PrepareOptions::default());
+            let distorted = distorted.unwrap().camera(&camera()).unwrap().unwrap();
             let ray_of = |camera: &Camera, pixel| {
                 let ray = camera.unproject(&pixel).unwrap();
                 nalgebra::Point2::new(ray.x / ray.z, ray.y / ray.z)
             };
             let bent = ray_of(&camera(), place(u, v));
-            let its_bent = ray_of(&kept, place(at.0, at.1));
+            let its_bent = ray_of(&distorted, place(at.0, at.1));
             let expected = match orientation {
                 6 => [-bent.y, bent.x],
                 3 => [-bent.x, -bent.y],
@@ -280,20 +281,20 @@ mod tests {
             };
             assert!((its_bent.x - expected[0]).abs() < 1e-12, "{orientation}");
             assert!((its_bent.y - expected[1]).abs() < 1e-12, "{orientation}");
-            assert_eq!((kept.width, kept.height), photo.full_size);
+            assert_eq!((distorted.width, distorted.height), photo.full_size);
             let its_ray = photo.intrinsics.unwrap().ray(&place(at.0, at.1));
-            assert!((its_ray.x - turned[0]).abs() < 1e-12, "{orientation}");
-            assert!((its_ray.y - turned[1]).abs() < 1e-12, "{orientation}");
+            assert!((its_ray.x - rotated[0]).abs() < 1e-12, "{orientation}");
+            assert!((its_ray.y - rotated[1]).abs() < 1e-12, "{orientation}");
         }
     }
 
     #[test]
-    fn a_camera_of_upright_photographs_serves_as_it_is() {
+    fn a_camera_of_upright_images_is_used_unchanged() {
         let upright = image::imageops::rotate90(&smooth());
-        let lens = camera().lens.turned(1);
+        let lens = camera().lens.rotated(1);
         let camera = Camera {
             lens,
-            ..Camera::pinhole(camera().intrinsics.turned(1, (80, 60)), 60, 80)
+            ..Camera::pinhole(camera().intrinsics.rotated(1, (80, 60)), 60, 80)
         };
         let flat = Undistortion::new(&camera, Keep::Valid, &mut ()).unwrap();
         let options = PrepareOptions {
@@ -310,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn a_photograph_of_another_camera_is_only_reduced() {
+    fn an_image_of_another_camera_is_only_downscaled() {
         let flat = Undistortion::new(&camera(), Keep::Valid, &mut ()).unwrap();
         let options = PrepareOptions {
             max_pixels: 1200,
@@ -327,11 +328,11 @@ mod tests {
             assert_eq!((2 * width, 2 * height), photo.full_size);
         }
         let photo = prepare_photo(&file(&smooth(), 6), &options).unwrap();
-        let expected = flat.intrinsics.turned(1, (80, 60)).scaled(0.5).unwrap();
+        let expected = flat.intrinsics.rotated(1, (80, 60)).scaled(0.5).unwrap();
         assert_eq!(photo.intrinsics, Some(expected));
-        let kept = photo.camera(&camera()).unwrap().unwrap();
-        let turned = camera().intrinsics.turned(1, (80, 60));
-        assert_eq!(kept.intrinsics, turned.scaled(0.5).unwrap());
+        let distorted = photo.camera(&camera()).unwrap().unwrap();
+        let rotated = camera().intrinsics.rotated(1, (80, 60));
+        assert_eq!(distorted.intrinsics, rotated.scaled(0.5).unwrap());
         assert!(prepare_photo(b"nothing", &options).is_err());
         let untouched = prepare_photo(&file(&smooth(), 1), &PrepareOptions::default()).unwrap();
         assert!(untouched.is_as_stored && untouched.image == smooth());

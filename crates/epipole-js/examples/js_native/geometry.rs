@@ -113,11 +113,11 @@ impl Calls {
         self.fail("fitLineHuber", &[points.clone(), Value::Number(0.0)])?;
         self.fail("estimateLine", &[first(&points, 2)])?;
         for ratio in [0.5, 0.0] {
-            let given = [ratio, 8.0, 0.99].map(Value::Number);
-            self.add("numTrialsWithReplacement", &given)?;
+            let arguments = [ratio, 8.0, 0.99].map(Value::Number);
+            self.add("numTrialsWithReplacement", &arguments)?;
         }
-        let given = [50.0, 100.0, 8.0, 0.99].map(Value::Number);
-        self.add("numTrialsWithoutReplacement", &given)?;
+        let arguments = [50.0, 100.0, 8.0, 0.99].map(Value::Number);
+        self.add("numTrialsWithoutReplacement", &arguments)?;
         Ok(())
     }
 
@@ -125,14 +125,14 @@ impl Calls {
         let (pixels1, pixels2) = (get(world, "pixels1"), get(world, "pixels2"));
         let (camera1, camera2) = cameras(world);
         let camera = get(&camera1, "camera");
-        let seen = [pixels1.clone(), pixels2.clone()];
+        let arguments = [pixels1.clone(), pixels2.clone()];
         let calibrated = [
             pixels1.clone(),
             pixels2.clone(),
             camera.clone(),
             camera.clone(),
         ];
-        let report = self.add("estimateFundamental", &seen)?;
+        let report = self.add("estimateFundamental", &arguments)?;
         self.add("estimateEssential", &calibrated)?;
         self.add("estimateRelativePose", &calibrated)?;
         let (gravity1, gravity2) = (gravity(&camera1), gravity(&camera2));
@@ -141,10 +141,10 @@ impl Calls {
         self.add("estimateRelativePoseWithGravity", &with_gravity)?;
         let k = intrinsics(world);
         let principal = Value::Doubles(vec![numbers(&k, "cuPx"), numbers(&k, "cvPx")]);
-        let turned = tilted(&pixels2, &k);
+        let rotated = tilted(&pixels2, &k);
         self.add(
             "estimateRelativePoseAndFocal",
-            &[pixels1.clone(), turned, principal.clone(), principal],
+            &[pixels1.clone(), rotated, principal.clone(), principal],
         )?;
         let f = get(&report, "model");
         for name in [
@@ -197,9 +197,9 @@ impl Calls {
         self.add("epipolarLine1", &[f.clone(), pixels2.clone()])?;
         self.add("epipolarLine2", &[f.clone(), pixels1.clone()])?;
         self.add("epipoles", std::slice::from_ref(&f))?;
-        let turned = tilted(&pixels2, &k);
-        let turned = self.add("fundamental8point", &[pixels1.clone(), turned])?;
-        let focals = [turned, principal.clone(), principal];
+        let rotated = tilted(&pixels2, &k);
+        let rotated = self.add("fundamental8point", &[pixels1.clone(), rotated])?;
+        let focals = [rotated, principal.clone(), principal];
         self.add("focalLengthsFromFundamental", &focals)?;
         let ks = [k.clone(), k.clone()];
         let [k1, k2] = ks;
@@ -288,8 +288,8 @@ impl Calls {
         let posed = get(world, "camera2");
         let (camera, k) = (get(&posed, "camera"), intrinsics(world));
         let principal = Value::Doubles(vec![numbers(&k, "cuPx"), numbers(&k, "cvPx")]);
-        let seen = [points.clone(), pixels.clone(), camera.clone()];
-        let report = self.add("estimateAbsolutePose", &seen)?;
+        let arguments = [points.clone(), pixels.clone(), camera.clone()];
+        let report = self.add("estimateAbsolutePose", &arguments)?;
         self.add(
             "estimateAbsolutePoseAndFocal",
             &[points.clone(), pixels.clone(), principal.clone()],
@@ -332,10 +332,10 @@ impl Calls {
         let (camera1, camera2) = cameras(exact);
         let (pixels1, pixels2) = (get(exact, "pixels1"), get(exact, "pixels2"));
         let camera = get(&camera1, "camera");
-        let turned = tilted(&pixels1, &intrinsics(exact));
+        let rotated = tilted(&pixels1, &intrinsics(exact));
         self.add(
             "estimateRotation",
-            &[pixels1.clone(), turned, camera.clone(), camera.clone()],
+            &[pixels1.clone(), rotated, camera.clone(), camera.clone()],
         )?;
         let poses = [get(&camera1, "camFromWorld"), get(&camera2, "camFromWorld")];
         let motion = self.add("relativeMotion", &poses)?;

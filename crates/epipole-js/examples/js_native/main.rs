@@ -40,10 +40,10 @@ struct Calls {
 }
 
 impl Calls {
-    fn add(&mut self, name: &str, given: &[Value]) -> Result<Value, Failure> {
-        let outcome = call(name, given, &mut ());
+    fn add(&mut self, name: &str, arguments: &[Value]) -> Result<Value, Failure> {
+        let outcome = call(name, arguments, &mut ());
         let mut line = format!("{{\"name\": {name:?}, \"given\": ");
-        json(&Value::List(given.to_vec()), &mut line);
+        json(&Value::List(arguments.to_vec()), &mut line);
         match &outcome {
             Ok(value) => {
                 line += ", \"result\": ";
@@ -56,8 +56,8 @@ impl Calls {
         Ok(outcome?)
     }
 
-    fn fail(&mut self, name: &str, given: &[Value]) -> Result<(), Failure> {
-        match self.add(name, given) {
+    fn fail(&mut self, name: &str, arguments: &[Value]) -> Result<(), Failure> {
+        match self.add(name, arguments) {
             Ok(_) => Err(format!("{name} must fail").into()),
             Err(_) => Ok(()),
         }

@@ -83,10 +83,19 @@ impl Calls {
 
     pub(super) fn add_stereo(&mut self, exact: &Value) -> Result<(), Failure> {
         let (left, right) = (texture(96, 64, 0), texture(96, 64, 6));
-        let near = record([("numDisparities", Value::Number(16.0))]);
-        self.add("stereoBm", &[left.clone(), right.clone(), near.clone()])?;
-        let found = self.add("stereoSgm", &[left.clone(), right.clone(), near.clone()])?;
-        self.add("stereoSgm", &[floats(&left), floats(&right), near])?;
+        let few_disparities = record([("numDisparities", Value::Number(16.0))]);
+        self.add(
+            "stereoBm",
+            &[left.clone(), right.clone(), few_disparities.clone()],
+        )?;
+        let found = self.add(
+            "stereoSgm",
+            &[left.clone(), right.clone(), few_disparities.clone()],
+        )?;
+        self.add(
+            "stereoSgm",
+            &[floats(&left), floats(&right), few_disparities],
+        )?;
         let (size, range) = (Value::Number(20.0), Value::Number(1.0));
         let clean = self.add("removeSpeckles", &[found, size, range])?;
         let (focal, baseline) = (Value::Number(500.0), Value::Number(0.1));
@@ -99,9 +108,9 @@ impl Calls {
             &[focal.clone(), baseline.clone(), Value::Number(12.5)],
         )?;
         for error in [0.5, 13.0] {
-            let given = [focal.clone(), baseline.clone()].into_iter();
-            let given = given.chain([12.5, error].map(Value::Number));
-            self.add("depthInterval", &given.collect::<Vec<_>>())?;
+            let arguments = [focal.clone(), baseline.clone()].into_iter();
+            let arguments = arguments.chain([12.5, error].map(Value::Number));
+            self.add("depthInterval", &arguments.collect::<Vec<_>>())?;
         }
         let k = record([
             ("fuPx", Value::Number(90.0)),
@@ -132,9 +141,9 @@ impl Calls {
             (floats(&left), floats(&right)),
             (colors(&left, 4), colors(&right, 3)),
         ] {
-            let mut given = vec![image1, image2];
-            given.extend(rig.clone());
-            self.add("rectifyImages", &given)?;
+            let mut arguments = vec![image1, image2];
+            arguments.extend(rig.clone());
+            self.add("rectifyImages", &arguments)?;
         }
         let (pixels1, pixels2) = (get(exact, "pixels1"), get(exact, "pixels2"));
         let (camera1, camera2) = cameras(exact);

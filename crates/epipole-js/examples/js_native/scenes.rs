@@ -222,9 +222,9 @@ impl Calls {
             &[edges.clone(), count.clone(), start.clone(), cauchy.clone()],
         )?;
         self.fail("optimizePoseGraph", &[edges, Value::Number(4.0), start])?;
-        let turns = Value::List((0..5).map(|index| edge(index, "toFromFrom")).collect());
-        self.add("averageRotations", &[turns.clone(), count, cauchy])?;
-        self.fail("averageRotations", &[turns, Value::Number(2.0)])
+        let rotation_edges = Value::List((0..5).map(|index| edge(index, "toFromFrom")).collect());
+        self.add("averageRotations", &[rotation_edges.clone(), count, cauchy])?;
+        self.fail("averageRotations", &[rotation_edges, Value::Number(2.0)])
     }
 }
 

@@ -22,7 +22,7 @@ structs! {
         /// board.
         pixels: Option<Numbers>,
         /// Number of marks seen.
-        num_seen: usize,
+        num_visible: usize,
         /// Why the board was not found, as a sentence; null if it was.
         problem: Option<Text>,
     }
@@ -107,7 +107,7 @@ functions! {
         let problem = search.problem(&board).map(Text);
         let view = search.view();
         FoundBoard {
-            num_seen: view.as_ref().map_or(0, BoardView::num_seen),
+            num_visible: view.as_ref().map_or(0, BoardView::num_visible),
             pixels: view.as_ref().map(pixels),
             problem,
         }

@@ -186,11 +186,24 @@ impl Output for Bundle {
     }
 
     fn into_value(self) -> Value {
-        let seen = &self.observations;
-        let pixels: Vec<_> = seen.iter().map(|seen| seen.pixel).collect();
-        let given = BundleInput {
-            observation_camera: Indices(seen.iter().map(|seen| seen.camera).collect()),
-            observation_point: Indices(seen.iter().map(|seen| seen.point).collect()),
+        let observations = &self.observations;
+        let pixels: Vec<_> = observations
+            .iter()
+            .map(|observations| observations.pixel)
+            .collect();
+        let input = BundleInput {
+            observation_camera: Indices(
+                observations
+                    .iter()
+                    .map(|observations| observations.camera)
+                    .collect(),
+            ),
+            observation_point: Indices(
+                observations
+                    .iter()
+                    .map(|observations| observations.point)
+                    .collect(),
+            ),
             observation_pixel: Numbers::of_points(&pixels),
             points: Numbers::of_points(&self.points),
             cameras: self.cameras,
@@ -198,7 +211,7 @@ impl Output for Bundle {
             sensors: self.sensors,
             observation_sensor: Indices(self.sensor_of_observation),
         };
-        given.into_value()
+        input.into_value()
     }
 }
 

@@ -127,11 +127,11 @@ impl Argument for MeasuredRotation {
 /// Maximum number of vertices: more would exhaust the memory of a page.
 const MAX_VERTICES: u32 = 1 << 20;
 
-fn count(name: &str, given: u32) -> Result<usize> {
-    match given <= MAX_VERTICES {
-        true => Ok(given as usize),
+fn count(name: &str, value: u32) -> Result<usize> {
+    match value <= MAX_VERTICES {
+        true => Ok(value as usize),
         false => Err(Fault::of_range(format!(
-            "{name} must be at most {MAX_VERTICES}, but is {given}"
+            "{name} must be at most {MAX_VERTICES}, but is {value}"
         ))),
     }
 }
@@ -151,13 +151,13 @@ functions! {
         let starts_from_edges = world_from_vertex.is_none();
         let count = self::count("numVertices", num_vertices)?;
         let vertices = match world_from_vertex {
-            Some(given) if given.len() != count => {
+            Some(value) if value.len() != count => {
                 return Err(Fault::of_range(format!(
                     "worldFromVertex must have {count} poses, one for each vertex, but has {}",
-                    given.len()
+                    value.len()
                 )));
             }
-            Some(given) => given,
+            Some(value) => value,
             None => vec![RigidTransform::identity(); count],
         };
         let mut graph = Graph {

@@ -91,17 +91,30 @@ impl Output for Reconstruction {
 
     fn into_value(self) -> Value {
         let positions: Vec<_> = self.points.iter().map(|point| point.position).collect();
-        let seen = || {
+        let observations = || {
             let points = self.points.iter().enumerate();
-            points.flat_map(|(index, point)| point.track.iter().map(move |seen| (index, seen)))
+            points.flat_map(|(index, point)| {
+                point
+                    .track
+                    .iter()
+                    .map(move |observations| (index, observations))
+            })
         };
         let scene = Scene {
             points: Numbers::of_points(&positions),
             colors: Bytes(self.points.iter().flat_map(|point| point.color).collect()),
             errors_px: Numbers(self.points.iter().map(|point| point.error_px).collect()),
-            observation_point: Indices(seen().map(|(point, _)| point).collect()),
-            observation_image: Indices(seen().map(|(_, seen)| seen.image as usize).collect()),
-            observation_keypoint: Indices(seen().map(|(_, seen)| seen.keypoint as usize).collect()),
+            observation_point: Indices(observations().map(|(point, _)| point).collect()),
+            observation_image: Indices(
+                observations()
+                    .map(|(_, observations)| observations.image as usize)
+                    .collect(),
+            ),
+            observation_keypoint: Indices(
+                observations()
+                    .map(|(_, observations)| observations.keypoint as usize)
+                    .collect(),
+            ),
             is_placed: self.is_placed,
             cameras: self.cameras,
         };

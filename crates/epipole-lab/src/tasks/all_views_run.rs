@@ -57,7 +57,7 @@ impl Run for FuseViews {
         // The photographs are downscaled already.
         let options = MvsOptions::default().with_max_size_px(longer.max().unwrap_or(0).max(32));
         let mut watch =
-            |status: Status| monitor(Progress::Share(status.share, status.stage.words()));
+            |status: Status| monitor(Progress::Share(status.fraction, status.stage.words()));
         let part = &mut Part::new(&mut watch, 0.0, PREPARED);
         let views = prepare_views(&known, &photos, &options, part)
             .map_err(|error| why_no_views(error, &known, &options))?;

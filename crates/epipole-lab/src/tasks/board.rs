@@ -41,7 +41,7 @@ impl BoardFound {
     }
 
     /// Counts the visible marks.
-    pub fn num_seen(&self) -> usize {
+    pub fn num_visible(&self) -> usize {
         self.marks.iter().flatten().count()
     }
 }
@@ -147,7 +147,7 @@ impl Run for FindBoard {
         let whole = of_sensor(&self.source)?;
         let sensor_size = whole.dimensions();
         let mut watch =
-            |status: Status| monitor(Progress::Share(0.3 + 0.7 * status.share, "searching"));
+            |status: Status| monitor(Progress::Share(0.3 + 0.7 * status.fraction, "searching"));
         let search = find_board(&photo_to_gray(&whole), &board, &mut watch).map_err(sentence)?;
         let problem = search.problem(&board);
         let other_grid = match search {

@@ -155,7 +155,7 @@ impl Run for Calibrate {
         let how =
             epipole::calibration::CalibrationOptions::default().with_lens(lens_kind(options.lens));
         let mut watch =
-            |status: Status| monitor(Progress::Share(status.share, status.stage.words()));
+            |status: Status| monitor(Progress::Share(status.fraction, status.stage.words()));
         let found = calibrate(&board, &views, size, &how, &mut watch);
         let found = found.map_err(|error| match error {
         epipole::Error::Canceled => "stopped".to_owned(),

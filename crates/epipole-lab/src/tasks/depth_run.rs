@@ -65,7 +65,7 @@ impl Run for FindDepth {
             |index: usize| Ok::<_, String>(resized(self.photographs[index].to_image()?, small));
         let (first, second) = (image(order[0])?, image(order[1])?);
         let mut watch = |status: Status| {
-            let share = 0.06 + 0.04 * status.share;
+            let share = 0.06 + 0.04 * status.fraction;
             monitor(Progress::Share(share, "warping the photographs"))
         };
         let photographs = [&first, &second];
@@ -76,7 +76,7 @@ impl Run for FindDepth {
         disparity = unclamped(&disparity, span(range_px, factor), at_infinity(&rig))?;
         if options.fill {
             let mut watch = |status: Status| {
-                let share = 0.95 + 0.05 * status.share;
+                let share = 0.95 + 0.05 * status.fraction;
                 monitor(Progress::Share(share, "filling the gaps"))
             };
             disparity = (redrawn.filled(&disparity, &mut watch)).map_err(sentence)?;
@@ -242,7 +242,7 @@ fn matched(
 ) -> Result<DisparityImage, epipole::Error> {
     let mut watch = |status: Status| {
         monitor(Progress::Share(
-            0.1 + 0.85 * status.share,
+            0.1 + 0.85 * status.fraction,
             status.stage.words(),
         ))
     };

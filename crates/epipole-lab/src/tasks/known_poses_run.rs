@@ -32,7 +32,7 @@ pub(super) fn triangulate(
     }
     let mut watch = |status: Status| {
         monitor(Progress::Share(
-            status.share,
+            status.fraction,
             "finding points by known poses",
         ))
     };

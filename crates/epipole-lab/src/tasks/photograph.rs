@@ -348,7 +348,7 @@ fn file(
     use epipole::camera::Intrinsics;
     use epipole::progress::Status;
     use epipole_io::photo::{PrepareOptions, prepare_photo};
-    let mut watch = |status: Status| monitor(Progress::Share(0.1 * status.share, ""));
+    let mut watch = |status: Status| monitor(Progress::Share(0.1 * status.fraction, ""));
     let mut flat = |camera: &LensCamera| {
         Undistortion::new(&core_lens_camera(camera)?, Keep::Valid, &mut watch)
             .map_err(|error| format!("its lens cannot be undone: {error}"))

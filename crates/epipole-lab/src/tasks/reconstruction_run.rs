@@ -51,7 +51,7 @@ impl Run for Reconstruct {
         }
         let mut share = 0.0;
         let mut run = IncrementalReconstruction::new(&input, &how, &mut |status: Status| {
-            share = status.share;
+            share = status.fraction;
             monitor(Progress::Share(share, status.stage.words()))
         })
         .map_err(sentence)?;
@@ -59,7 +59,7 @@ impl Run for Reconstruct {
         loop {
             // Within a step the stage does not change; the monitor is only asked whether to cancel.
             let step = run.step(&mut |status: Status| {
-                share = status.share;
+                share = status.fraction;
                 monitor(Progress::Share(share, &words))
             });
             words = match step.map_err(sentence)? {

@@ -191,7 +191,7 @@ impl Run for VerifyPair {
                 .with_seed(options.seed),
         );
         how.check().map_err(sentence)?;
-        let mut watch = |status: Status| monitor(Progress::Share(status.share, ""));
+        let mut watch = |status: Status| monitor(Progress::Share(status.fraction, ""));
         // Estimators ignore the size of the images.
         let [one, two] = [k1, k2].map(|k| Camera::pinhole(k, 0, 0));
         let found = estimate_two_view_calibrated(&first, &second, [&one, &two], &how, &mut watch);

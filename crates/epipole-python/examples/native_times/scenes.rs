@@ -28,11 +28,14 @@ pub(crate) fn add(timers: &mut Timers) -> Outcome {
 fn add_bundle(timers: &mut Timers, world: &'static MultiViewProblem) {
     // The points come rounded to tenths: work for the adjustment.
     let rounded = |x: &Point3<f64>| x.map(|x| (x * 10.0).round() / 10.0);
-    let observations = world.observations.iter().map(|seen| BundleObservation {
-        camera: seen.camera,
-        point: seen.point,
-        pixel: seen.pixel,
-    });
+    let observations = world
+        .observations
+        .iter()
+        .map(|observation| BundleObservation {
+            camera: observation.camera,
+            point: observation.point,
+            pixel: observation.pixel,
+        });
     let bundle = Bundle {
         cameras: world.cameras.clone(),
         points: world.points.iter().map(rounded).collect(),
@@ -52,8 +55,8 @@ fn add_reconstruction(timers: &mut Timers, world: &'static MultiViewProblem) {
         .map(|camera| SfmImage {
             name: camera.to_string(),
             keypoints: (world.observations.iter())
-                .filter(|seen| seen.camera == camera)
-                .map(|seen| seen.pixel)
+                .filter(|observation| observation.camera == camera)
+                .map(|observation| observation.pixel)
                 .collect(),
             ..SfmImage::default()
         })
@@ -120,8 +123,9 @@ fn add_calibration(timers: &mut Timers) -> Outcome {
     let camera = Camera::pinhole(Intrinsics::new(600.0, 600.0, 319.5, 239.5)?, 640, 480);
     let views: Vec<Option<BoardView>> = (0..12)
         .map(|k| {
-            let turn = 0.1 * f64::from(k) - 0.5;
-            let rotation = UnitQuaternion::from_scaled_axis([turn, -0.5 * turn, 0.1 * turn].into());
+            let yaw_rad = 0.1 * f64::from(k) - 0.5;
+            let rotation =
+                UnitQuaternion::from_scaled_axis([yaw_rad, -0.5 * yaw_rad, 0.1 * yaw_rad].into());
             let translation = Translation3::new(-0.12, -0.08, 0.5);
             let posed = PosedCamera {
                 camera,

@@ -29,8 +29,8 @@ def orbit(result: sfm.Reconstruction, picture: str) -> str:
     """Returns the HTML of a reconstruction; viewers without scripts show `picture`."""
     cameras = [camera for camera in result.cameras if camera is not None]
     text = f"{len(cameras)} cameras and {len(result.points)} points"
-    kept = np.isfinite(result.points).all(axis=1)
-    points, colors = result.points[kept], result.colors[kept]
+    is_finite = np.isfinite(result.points).all(axis=1)
+    points, colors = result.points[is_finite], result.colors[is_finite]
     step = max(1, -(-len(points) // _MAX_POINTS))
     points, colors = points[::step], colors[::step]
     if not len(points) or not cameras:

@@ -165,7 +165,7 @@ class BoardView:
     def pixels(self) -> NDArray[np.float64]:
         """Pixel of each mark of the board, shape (N, 2); NaN where not visible."""
     def __eq__(self, other: object, /) -> bool: ...
-    def seen(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    def visible(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
         """Returns the visible marks with their pixels.
 
         Returns
@@ -173,7 +173,7 @@ class BoardView:
         marks : ndarray of int64, shape (M,)
         pixels : ndarray, shape (M, 2)
         """
-    def num_seen(self) -> int:
+    def num_visible(self) -> int:
         """Returns the number of visible marks."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -192,7 +192,7 @@ class BoardSearch:
         Number of marks along the longer side of a partial board.
     rows
         Number of marks along the shorter side of a partial board.
-    num_seen
+    num_visible
         Number of visible marks of a partial board.
     num_of_board
         Number of markers that belong to the board.
@@ -205,7 +205,7 @@ class BoardSearch:
         view: BoardView | None,
         columns: int | None,
         rows: int | None,
-        num_seen: int | None,
+        num_visible: int | None,
         num_of_board: int | None,
         num_others: int | None,
     ) -> BoardSearch: ...
@@ -224,7 +224,7 @@ class BoardSearch:
     def rows(self) -> int | None:
         """Number of marks along the shorter side of a partial board."""
     @property
-    def num_seen(self) -> int | None:
+    def num_visible(self) -> int | None:
         """Number of visible marks of a partial board."""
     @property
     def num_of_board(self) -> int | None:

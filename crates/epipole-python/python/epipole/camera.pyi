@@ -264,7 +264,7 @@ class Intrinsics:
         ValueError
             If a new side is 0 pixels long.
         """
-    def turned(self, quarters: int, size: tuple[int, int]) -> Intrinsics:
+    def rotated(self, quarters: int, size: tuple[int, int]) -> Intrinsics:
         """Returns the intrinsics for an image rotated clockwise by quarter turns.
 
         Parameters
@@ -322,12 +322,12 @@ class Lens:
         epipole.DegenerateError
             If a single point is given and the lens does not see it.
         """
-    def ray(self, seen: ArrayLike) -> NDArray[np.float64]:
+    def ray(self, distorted: ArrayLike) -> NDArray[np.float64]:
         """Computes the rays of distorted image points, for a focal length of 1.
 
         Parameters
         ----------
-        seen : array_like, shape (2,) or (N, 2)
+        distorted : array_like, shape (2,) or (N, 2)
 
         Returns
         -------
@@ -338,7 +338,7 @@ class Lens:
         epipole.DegenerateError
             If a single image point is given and has no ray; for several points, its row is NaN.
         """
-    def turned(self, quarters: int) -> Lens:
+    def rotated(self, quarters: int) -> Lens:
         """Returns the lens for an image rotated clockwise by quarter turns.
 
         Parameters

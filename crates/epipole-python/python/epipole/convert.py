@@ -87,8 +87,8 @@ def from_opencv(
             raise ValueError("dist_coeffs has thin-prism or tilt coefficients, which no lens has")
         kind, wanted = ("rational", 8) if np.any(numbers[5:8]) else ("brown", 5)
     coefficients = np.zeros(wanted)
-    given = numbers[:wanted]
-    coefficients[: len(given)] = given
+    used = numbers[:wanted]
+    coefficients[: len(used)] = used
     lens = Lens(kind, list(coefficients)) if np.any(coefficients) or fisheye else None
     return Camera(width, height, Intrinsics.from_matrix(camera_matrix), lens)
 

@@ -210,8 +210,8 @@ def cameras(
         import matplotlib.pyplot as plt
 
         ax = plt.figure().add_subplot(projection="3d")
-    everything = np.vstack([centers, cloud])
-    extent = float(np.ptp(everything, axis=0).max()) if len(everything) else 1.0
+    all_points = np.vstack([centers, cloud])
+    extent = float(np.ptp(all_points, axis=0).max()) if len(all_points) else 1.0
     depth = size if size is not None else 0.1 * (extent or 1.0)
     for (rotation, _), center in zip(poses, centers):
         corners = np.array([[-0.8, -0.6, 1], [0.8, -0.6, 1], [0.8, 0.6, 1], [-0.8, 0.6, 1]])

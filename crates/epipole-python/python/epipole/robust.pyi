@@ -116,7 +116,7 @@ class RansacReport(Generic[_Model]):
     def __eq__(self, other: object, /) -> bool: ...
     @classmethod
     def __class_getitem__(cls, model: Any) -> Any: ...
-    def could_be_chance(self) -> bool:
+    def could_be_random(self) -> bool:
         """Whether unrelated data might have this much support: the model is then not significant."""
     __hash__: ClassVar[None]  # type: ignore[assignment]
 
@@ -560,14 +560,14 @@ def log10_false_alarms(
     num_data: int,
     sample_size: int,
     max_models: int,
-    chance: float,
+    random_inlier_probability: float,
 ) -> float:
     """Returns the expected number of models with this support by chance, as log10.
 
     Parameters
     ----------
     num_inliers, num_data, sample_size, max_models : int
-    chance : float
+    random_inlier_probability : float
         Probability that an unrelated data point fits a model.
 
     Returns

@@ -476,7 +476,7 @@ class RectifiedPair:
     Parameters
     ----------
     rig : Rectification
-    photograph1, photograph2 : array_like, shape (H, W, 3)
+    image1, image2 : array_like, shape (H, W, 3)
         uint8, with the image sizes of the rig's cameras.
     progress : callable, optional
         Called with the stage and the completed fraction.
@@ -484,8 +484,8 @@ class RectifiedPair:
     def __new__(
         cls,
         rig: Rectification,
-        photograph1: ArrayLike,
-        photograph2: ArrayLike,
+        image1: ArrayLike,
+        image2: ArrayLike,
         *,
         progress: Callable[[str, float], object] | None = None,
     ) -> RectifiedPair: ...
@@ -493,10 +493,10 @@ class RectifiedPair:
     def rig(self) -> Rectification:
         """Rectified rig."""
     @property
-    def photograph1(self) -> NDArray[np.uint8]:
+    def image1(self) -> NDArray[np.uint8]:
         """First photo, uint8 of shape (H, W, 3)."""
     @property
-    def photograph2(self) -> NDArray[np.uint8]:
+    def image2(self) -> NDArray[np.uint8]:
         """Second photo, uint8 of shape (H, W, 3)."""
     @property
     def pictures(self) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:

@@ -43,7 +43,7 @@ use pyo3::types::PyTuple;
 pub(super) struct Board {
     pub(super) board: calibration::Board,
     /// Columns and rows given to the constructor.
-    given: (usize, usize),
+    size: (usize, usize),
 }
 
 #[pymethods]
@@ -58,7 +58,7 @@ impl Board {
         let pattern: Pattern = options::value("pattern", pattern)?;
         Ok(Self {
             board: calibration::Board::new(pattern, columns, rows, square_m).or_raise()?,
-            given: (columns, rows),
+            size: (columns, rows),
         })
     }
 
@@ -75,13 +75,13 @@ impl Board {
     /// Columns, as in the constructor.
     #[getter]
     fn columns(&self) -> usize {
-        self.given.0
+        self.size.0
     }
 
     /// Rows, as in the constructor.
     #[getter]
     fn rows(&self) -> usize {
-        self.given.1
+        self.size.1
     }
 
     /// Number of marks per row: inner corners of squares, corners of tags, or disks.
@@ -168,7 +168,7 @@ impl Board {
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let (board, (columns, rows)) = (slf.get(), slf.get().given);
+        let (board, (columns, rows)) = (slf.get(), slf.get().size);
         let pattern = board.pattern(slf.py())?;
         let arguments = (pattern, columns, rows, board.square_m()).into_pyobject(slf.py())?;
         Ok((slf.get_type().into_any(), arguments))
@@ -234,17 +234,17 @@ impl BoardView {
     /// marks : ndarray of int64, shape (M,)
     /// pixels : ndarray, shape (M, 2)
     #[allow(clippy::type_complexity)]
-    fn seen<'py>(
+    fn visible<'py>(
         &self,
         py: Python<'py>,
     ) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<f64>>)> {
-        let marks = PyArray1::from_iter(py, self.0.seen().map(|(mark, _)| mark as i64));
-        let pixels: Vec<_> = self.0.seen().map(|(_, pixel)| pixel.coords).collect();
+        let marks = PyArray1::from_iter(py, self.0.visible().map(|(mark, _)| mark as i64));
+        let pixels: Vec<_> = self.0.visible().map(|(_, pixel)| pixel.coords).collect();
         Ok((marks, from_rows(py, &pixels)?))
     }
 
     /// Returns the number of visible marks.
-    fn num_seen(&self) -> usize {
-        self.0.num_seen()
+    fn num_visible(&self) -> usize {
+        self.0.num_visible()
     }
 }

@@ -25,7 +25,7 @@ record! {
         /// Number of marks along the shorter side of a partial board.
         rows: Option<usize>,
         /// Number of visible marks of a partial board.
-        num_seen: Option<usize>,
+        num_visible: Option<usize>,
         /// Number of markers that belong to the board.
         num_of_board: Option<usize>,
         /// Number of other markers of the dictionary.
@@ -53,7 +53,7 @@ impl BoardSearch {
             ("partial", _) => Search::Partial {
                 columns: self.columns.unwrap_or(0),
                 rows: self.rows.unwrap_or(0),
-                num_seen: self.num_seen.unwrap_or(0),
+                num_visible: self.num_visible.unwrap_or(0),
             },
             ("markers", _) => Search::Markers {
                 num_of_board: self.num_of_board.unwrap_or(0),
@@ -76,7 +76,7 @@ impl From<calibration::BoardSearch> for BoardSearch {
             view: None,
             columns: None,
             rows: None,
-            num_seen: None,
+            num_visible: None,
             num_of_board: None,
             num_others: None,
         };
@@ -88,12 +88,12 @@ impl From<calibration::BoardSearch> for BoardSearch {
             Search::Partial {
                 columns,
                 rows,
-                num_seen,
+                num_visible,
             } => {
                 found.kind = "partial".to_owned();
                 found.columns = Some(columns);
                 found.rows = Some(rows);
-                found.num_seen = Some(num_seen);
+                found.num_visible = Some(num_visible);
             }
             Search::Markers {
                 num_of_board,
@@ -159,9 +159,9 @@ fn dictionary(name: &str, value: &Bound<'_, PyAny>) -> PyResult<calibration::Mar
     if let Ok(dictionary) = value.cast::<MarkerDictionary>() {
         return Ok(dictionary.get().0);
     }
-    let given: String = value.extract().unwrap_or_default();
+    let text: String = value.extract().unwrap_or_default();
     let mut all = calibration::MarkerDictionary::ALL.into_iter();
-    match all.find(|dictionary| dictionary.name() == given) {
+    match all.find(|dictionary| dictionary.name() == text) {
         Some(dictionary) => Ok(dictionary),
         None => options::value(name, value),
     }

@@ -234,7 +234,7 @@ impl Intrinsics {
     /// quarters : int
     /// size : tuple of int
     ///     Width and height before the rotation, pixels.
-    fn turned(&self, quarters: u8, size: (u32, u32)) -> Self {
-        Self(self.0.turned(quarters, size))
+    fn rotated(&self, quarters: u8, size: (u32, u32)) -> Self {
+        Self(self.0.rotated(quarters, size))
     }
 }

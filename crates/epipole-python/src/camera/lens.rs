@@ -90,7 +90,7 @@ impl Lens {
     ///
     /// Parameters
     /// ----------
-    /// seen : array_like, shape (2,) or (N, 2)
+    /// distorted : array_like, shape (2,) or (N, 2)
     ///
     /// Returns
     /// -------
@@ -100,9 +100,9 @@ impl Lens {
     /// ------
     /// epipole.DegenerateError
     ///     If a single image point is given and has no ray; for several points, its row is NaN.
-    fn ray<'py>(&self, seen: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    fn ray<'py>(&self, distorted: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let ray = |p: &_| self.0.ray(&Point2::from(*p));
-        Batch::<2>::read("seen", seen)?.vectors(seen.py(), ray)
+        Batch::<2>::read("distorted", distorted)?.vectors(distorted.py(), ray)
     }
 
     /// Returns the lens for an image rotated clockwise by quarter turns.
@@ -111,7 +111,7 @@ impl Lens {
     /// ----------
     /// quarters : int
     ///     Number of quarter turns.
-    fn turned(&self, quarters: u8) -> Self {
-        self.0.turned(quarters).into()
+    fn rotated(&self, quarters: u8) -> Self {
+        self.0.rotated(quarters).into()
     }
 }

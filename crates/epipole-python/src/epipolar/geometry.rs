@@ -61,11 +61,11 @@ pub(super) fn tangent_sampson_px<'py>(
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        let seen1 = camera1.0.observe(&Point2::from(*p));
-        let seen2 = camera2.0.observe(&Point2::from(*q));
-        match (seen1, seen2) {
-            (Ok(seen1), Ok(seen2)) => {
-                epipolar::tangent_sampson_px(&cam2_from_cam1.0, &seen1, &seen2)
+        let observation1 = camera1.0.observe(&Point2::from(*p));
+        let observation2 = camera2.0.observe(&Point2::from(*q));
+        match (observation1, observation2) {
+            (Ok(observation1), Ok(observation2)) => {
+                epipolar::tangent_sampson_px(&cam2_from_cam1.0, &observation1, &observation2)
             }
             _ => f64::NAN,
         }

@@ -91,29 +91,29 @@ pub(super) fn take_cloud(argument: &str, cloud: &Bound<'_, PyAny>) -> PyResult<P
         Ok(part.filter(|part| !part.is_none()))
     };
     let of = |name: &str| format!("{argument}.{name}");
-    let mut given = PointCloud {
+    let mut point_cloud = PointCloud {
         points: points3(argument, &points)?,
         colors: colors(&of("colors"), part("colors")?.as_ref())?,
         ..PointCloud::default()
     };
     if let Some(normals) = part("normals")? {
         let normals = points3(&of("normals"), &normals)?;
-        given.normals = normals.into_iter().map(|normal| normal.coords).collect();
+        point_cloud.normals = normals.into_iter().map(|normal| normal.coords).collect();
     }
     if let Some(confidences) = part("confidences")? {
-        given.confidences = column(&of("confidences"), &confidences)?;
+        point_cloud.confidences = column(&of("confidences"), &confidences)?;
     }
     for (name, count) in [
-        ("colors", given.colors.len()),
-        ("normals", given.normals.len()),
-        ("confidences", given.confidences.len()),
+        ("colors", point_cloud.colors.len()),
+        ("normals", point_cloud.normals.len()),
+        ("confidences", point_cloud.confidences.len()),
     ] {
         if count > 0 {
-            let points = (&*of("points"), given.points.len());
+            let points = (&*of("points"), point_cloud.points.len());
             require_equal(points, (&of(name), count))?;
         }
     }
-    Ok(given)
+    Ok(point_cloud)
 }
 
 fn disparities(source: &Bound<'_, PyAny>, read: Reader) -> PyResult<Py<PyArray2<f32>>> {

@@ -109,11 +109,13 @@ pub(super) fn or_raise<T>(result: Result<T, Error>) -> PyResult<T> {
 ///
 /// # Errors
 /// `ValueError` that lists the choices.
-pub(super) fn format_of<F: Copy>(all: &[(&str, F)], given: &str) -> PyResult<F> {
-    let found = all.iter().find(|(name, _)| *name == given);
+pub(super) fn format_of<F: Copy>(all: &[(&str, F)], requested: &str) -> PyResult<F> {
+    let found = all.iter().find(|(name, _)| *name == requested);
     found.map(|&(_, format)| format).ok_or_else(|| {
         let names: Vec<_> = all.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         let names = names.join(", ");
-        PyValueError::new_err(format!("format must be one of {names}, but is \"{given}\""))
+        PyValueError::new_err(format!(
+            "format must be one of {names}, but is \"{requested}\""
+        ))
     })
 }

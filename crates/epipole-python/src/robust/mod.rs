@@ -82,7 +82,7 @@ fn num_trials_without_replacement(
 /// Parameters
 /// ----------
 /// num_inliers, num_data, sample_size, max_models : int
-/// chance : float
+/// random_inlier_probability : float
 ///     Probability that an unrelated data point fits a model.
 ///
 /// Returns
@@ -94,9 +94,15 @@ fn log10_false_alarms(
     num_data: usize,
     sample_size: usize,
     max_models: usize,
-    chance: f64,
+    random_inlier_probability: f64,
 ) -> f64 {
-    robust::log10_false_alarms(num_inliers, num_data, sample_size, max_models, chance)
+    robust::log10_false_alarms(
+        num_inliers,
+        num_data,
+        sample_size,
+        max_models,
+        random_inlier_probability,
+    )
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -50,7 +50,7 @@ impl RansacReport {
     }
 
     /// Whether unrelated data might have this much support: the model is then not significant.
-    fn could_be_chance(&self) -> bool {
+    fn could_be_random(&self) -> bool {
         let report = robust::RansacReport {
             model: (),
             inliers: Vec::new(),
@@ -65,7 +65,7 @@ impl RansacReport {
             refinements: self.refinements,
             stop: StopReason::Confident,
         };
-        report.could_be_chance()
+        report.could_be_random()
     }
 }
 

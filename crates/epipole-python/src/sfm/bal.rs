@@ -101,8 +101,8 @@ impl BalProblem {
         let loss = options::loss(loss)?;
         loss.check().or_raise()?;
         let (cameras, points) = (self.0.cameras.len(), self.0.points.len());
-        let mut seen = self.0.observations.iter();
-        if seen.any(|o| o.camera >= cameras || o.point >= points) {
+        let mut observations = self.0.observations.iter();
+        if observations.any(|o| o.camera >= cameras || o.point >= points) {
             let message = "observations has the index of a camera or point that is not there";
             return Err(PyIndexError::new_err(message));
         }

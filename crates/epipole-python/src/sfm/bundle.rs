@@ -178,12 +178,14 @@ impl Bundle {
         py: Python<'py>,
         observation: usize,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let Some(seen) = self.0.observations.get(observation) else {
+        let Some(observation_value) = self.0.observations.get(observation) else {
             let count = self.0.observations.len();
             let message = format!("observation is {observation}, but there are {count}");
             return Err(PyIndexError::new_err(message));
         };
-        if seen.camera >= self.0.cameras.len() || seen.point >= self.0.points.len() {
+        if observation_value.camera >= self.0.cameras.len()
+            || observation_value.point >= self.0.points.len()
+        {
             let message = format!("observation {observation} has no camera or no point");
             return Err(PyIndexError::new_err(message));
         }

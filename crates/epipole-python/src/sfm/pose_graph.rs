@@ -142,12 +142,12 @@ impl Parts<'_, '_> {
 fn information_of<const D: usize>(
     name: &str,
     count_letter: &str,
-    given: Option<&Bound<'_, PyAny>>,
+    value: Option<&Bound<'_, PyAny>>,
     count: usize,
 ) -> PyResult<Vec<SMatrix<f64, D, D>>> {
-    given.map_or_else(
+    value.map_or_else(
         || Ok(vec![SMatrix::identity(); count]),
-        |given| matrices::<D>(name, count_letter, given),
+        |value| matrices::<D>(name, count_letter, value),
     )
 }
 
@@ -230,8 +230,8 @@ impl PoseGraph {
         priors: Option<&Bound<'_, PyAny>>,
         prior_information: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let of_vertices = |name: &str, given: Option<&Bound<'_, PyAny>>| {
-            given.map_or_else(|| Ok(Vec::new()), |given| indices(name, given))
+        let of_vertices = |name: &str, value: Option<&Bound<'_, PyAny>>| {
+            value.map_or_else(|| Ok(Vec::new()), |value| indices(name, value))
         };
         let parts = Parts {
             vertices,

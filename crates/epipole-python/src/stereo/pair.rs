@@ -21,43 +21,36 @@ type Colors<'py> = (Bound<'py, PyArray3<u8>>, Bound<'py, PyArray3<u8>>);
 /// Parameters
 /// ----------
 /// rig : Rectification
-/// photograph1, photograph2 : array_like, shape (H, W, 3)
+/// image1, image2 : array_like, shape (H, W, 3)
 ///     uint8, with the image sizes of the rig's cameras.
 /// progress : callable, optional
 ///     Called with the stage and the completed fraction.
 #[pyclass(frozen, module = "epipole.stereo")]
 pub(super) struct RectifiedPair {
     rig: Py<Rectification>,
-    photographs: [RgbImage; 2],
+    images: [RgbImage; 2],
     pair: stereo::RectifiedPair,
 }
 
-plain_class!(RectifiedPair: rig, photograph1, photograph2);
+plain_class!(RectifiedPair: rig, image1, image2);
 
 #[pymethods]
 impl RectifiedPair {
     #[new]
-    #[pyo3(signature = (rig, photograph1, photograph2, *, progress=None))]
+    #[pyo3(signature = (rig, image1, image2, *, progress=None))]
     fn new(
         py: Python<'_>,
         rig: Py<Rectification>,
-        photograph1: &Bound<'_, PyAny>,
-        photograph2: &Bound<'_, PyAny>,
+        image1: &Bound<'_, PyAny>,
+        image2: &Bound<'_, PyAny>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let photographs = [
-            rgb("photograph1", photograph1)?,
-            rgb("photograph2", photograph2)?,
-        ];
+        let images = [rgb("image1", image1)?, rgb("image2", image2)?];
         let core = &rig.get().0;
         let pair = progress::run(py, progress, |monitor| {
-            stereo::RectifiedPair::new(core, photographs.each_ref(), monitor)
+            stereo::RectifiedPair::new(core, images.each_ref(), monitor)
         })?;
-        Ok(Self {
-            rig,
-            photographs,
-            pair,
-        })
+        Ok(Self { rig, images, pair })
     }
 
     /// Rectified rig.
@@ -68,14 +61,14 @@ impl RectifiedPair {
 
     /// First photo, uint8 of shape (H, W, 3).
     #[getter]
-    fn photograph1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        from_rgb(py, self.photographs[0].clone())
+    fn image1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        from_rgb(py, self.images[0].clone())
     }
 
     /// Second photo, uint8 of shape (H, W, 3).
     #[getter]
-    fn photograph2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        from_rgb(py, self.photographs[1].clone())
+    fn image2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        from_rgb(py, self.images[1].clone())
     }
 
     /// Rectified photos, black outside the image content.

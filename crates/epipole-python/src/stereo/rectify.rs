@@ -101,11 +101,15 @@ impl Rectification {
         height: u32,
         valid: (PyRef<'_, PixelRect>, PyRef<'_, PixelRect>),
     ) -> PyResult<Self> {
-        let turn = |value| rotation("rect_from_cam", value).map(Rotation3::from_matrix_unchecked);
+        let read_rotation =
+            |value| rotation("rect_from_cam", value).map(Rotation3::from_matrix_unchecked);
         let homography = |value| matrix::<3, 3>("homographies", value);
         Ok(Self(stereo::Rectification {
             cameras: [cameras.0.0, cameras.1.0],
-            rect_from_cam: [turn(&rect_from_cam[0])?, turn(&rect_from_cam[1])?],
+            rect_from_cam: [
+                read_rotation(&rect_from_cam[0])?,
+                read_rotation(&rect_from_cam[1])?,
+            ],
             intrinsics: [intrinsics.0.0, intrinsics.1.0],
             homographies: [homography(&homographies[0])?, homography(&homographies[1])?],
             q: matrix("q", q)?,

@@ -127,7 +127,7 @@ pub(crate) fn features_of(
     let options = SiftOptions::default().with_max_features(MAX_FEATURES);
     let gray = rgb_to_gray_f32(photograph, &BT601_WEIGHTS);
     detect_sift(&gray, &options, &mut |status: Status| {
-        progress(f64::from(status.share))
+        progress(f64::from(status.fraction))
     })
 }
 

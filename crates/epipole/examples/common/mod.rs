@@ -21,9 +21,9 @@ pub(crate) fn read_gray(path: &str) -> Outcome<GrayImage32> {
     Ok(decode_gray(&std::fs::read(path)?, &DecodeOptions::default())?.image)
 }
 
-/// A table with things on it, photographed by a camera that moved: its place, the picture and the
+/// A table with objects, rendered from a moved camera: the camera, the image and the
 /// depth of each pixel.
-pub(crate) fn photograph(
+pub(crate) fn render(
     moved_from_start: &RigidTransform,
 ) -> Result<(PosedCamera, Photograph), Error> {
     let start = still_life_camera(SIZE.0, SIZE.1);
@@ -31,13 +31,13 @@ pub(crate) fn photograph(
         cam_from_world: moved_from_start * start.cam_from_world,
         ..start
     };
-    let photograph = Scene::still_life().render(&camera, SIZE.0, SIZE.1, Sampling::Full)?;
-    Ok((camera, photograph))
+    let photo = Scene::still_life().render(&camera, SIZE.0, SIZE.1, Sampling::Full)?;
+    Ok((camera, photo))
 }
 
 /// The same as gray values.
-pub(crate) fn gray(photograph: &Photograph) -> GrayImage32 {
-    gray_to_f32(&rgb_to_gray(&photograph.image))
+pub(crate) fn gray(photo: &Photograph) -> GrayImage32 {
+    gray_to_f32(&rgb_to_gray(&photo.image))
 }
 
 /// Places in a photograph.
@@ -79,9 +79,9 @@ pub(crate) fn photos(paths: &[String]) -> Outcome<Vec<Photo>> {
     }
     if paths.is_empty() {
         for x in [0.0, -0.15, -0.3] {
-            let turn = Vector3::new(0.0, -0.6 * x, 0.0);
-            let step = RigidTransform::new(Vector3::new(x, 0.0, 0.0), turn);
-            let image = photograph(&step)?.1.image;
+            let rotation = Vector3::new(0.0, -0.6 * x, 0.0);
+            let step = RigidTransform::new(Vector3::new(x, 0.0, 0.0), rotation);
+            let image = render(&step)?.1.image;
             let name = format!("{x}.png");
             photos.push(Photo {
                 name,

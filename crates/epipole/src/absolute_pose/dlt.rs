@@ -61,14 +61,14 @@ pub fn pose_dlt(
             got: pixels.len(),
         });
     }
-    let share = 1.0 / pixels.len() as f64;
+    let weight = 1.0 / pixels.len() as f64;
     let mut center = Vector3::zeros();
     for p in points_in_world {
-        center += p.coords * share;
+        center += p.coords * weight;
     }
     let mut spread = 0.0;
     for p in points_in_world {
-        spread += (p.coords - center).norm_squared() * share;
+        spread += (p.coords - center).norm_squared() * weight;
     }
     let rays: Vec<Vector3<f64>> = pixels.iter().map(|p| intrinsics.ray(p)).collect();
     if !spread.is_finite() || !rays.iter().all(|r| r.x.is_finite() && r.y.is_finite()) {

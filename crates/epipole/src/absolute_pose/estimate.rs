@@ -55,25 +55,34 @@ impl AbsolutePoseEstimator {
                 .map(|pixel| camera.observe(pixel).ok())
                 .collect()
         });
-        let is_seen = |i: usize| observed.as_ref().is_none_or(|seen| seen[i].is_some());
-        let unique = usable(points_in_world, pixels, is_seen)?;
+        let is_observed = |i: usize| {
+            observed
+                .as_ref()
+                .is_none_or(|observations| observations[i].is_some())
+        };
+        let unique = usable(points_in_world, pixels, is_observed)?;
         unique.at_least(4, "a camera pose from points")?;
-        let kept = unique.first_occurrences();
+        let unique_indices = unique.first_occurrences();
         let k = camera.intrinsics;
         let (sight, rays) = match observed {
             None => {
-                let rays = kept.iter().map(|&i| k.ray(&pixels[i]).normalize());
+                let rays = unique_indices
+                    .iter()
+                    .map(|&i| k.ray(&pixels[i]).normalize());
                 (Sight::Pinhole(k), rays.collect())
             }
-            Some(seen) => {
-                let seen: Vec<Observation> = kept.iter().filter_map(|&i| seen[i]).collect();
-                let rays = seen.iter().map(Observation::ray).collect();
-                (Sight::AnyLens(seen), rays)
+            Some(observations) => {
+                let observations: Vec<Observation> = unique_indices
+                    .iter()
+                    .filter_map(|&i| observations[i])
+                    .collect();
+                let rays = observations.iter().map(Observation::ray).collect();
+                (Sight::AnyLens(observations), rays)
             }
         };
         Ok(Self {
-            points: kept.iter().map(|&i| points_in_world[i]).collect(),
-            pixels: kept.iter().map(|&i| pixels[i]).collect(),
+            points: unique_indices.iter().map(|&i| points_in_world[i]).collect(),
+            pixels: unique_indices.iter().map(|&i| pixels[i]).collect(),
             rays,
             sight,
             unique,
@@ -100,8 +109,8 @@ impl AbsolutePoseEstimator {
                 };
                 refine(&problem, *pose, &options)
             }
-            Sight::AnyLens(seen) => {
-                let errors = LensPoints { seen };
+            Sight::AnyLens(observations) => {
+                let errors = LensPoints { observations };
                 let problem = PoseProblem {
                     points,
                     errors,
@@ -125,7 +134,7 @@ impl AbsolutePoseEstimator {
 pub(super) fn usable(
     points_in_world: &[Point3<f64>],
     pixels: &[Point2<f64>],
-    is_seen: impl Fn(usize) -> bool,
+    is_observed: impl Fn(usize) -> bool,
 ) -> Result<Unique> {
     if points_in_world.len() != pixels.len() {
         return Err(Error::SizeMismatch {
@@ -146,7 +155,7 @@ pub(super) fn usable(
         let (x, p) = (&points_in_world[i], &pixels[i]);
         let values = [x.x, x.y, x.z, p.x, p.y];
         let usable = values.iter().all(|x| x.is_finite()) && p.coords.amax() <= FARTHEST_PX;
-        (usable && is_seen(i)).then_some(values)
+        (usable && is_observed(i)).then_some(values)
     }))
 }
 
@@ -179,7 +188,7 @@ impl Estimator for AbsolutePoseEstimator {
         let x = self.in_cam(pose, index);
         match &self.sight {
             Sight::Pinhole(k) => self.pinhole(k).error_sq(&x, index),
-            Sight::AnyLens(seen) => seen[index].error_sq(&x),
+            Sight::AnyLens(observations) => observations[index].error_sq(&x),
         }
     }
 

@@ -70,11 +70,12 @@ impl AbsolutePoseFocalEstimator {
         }
         let unique = usable(points_in_world, pixels, |_| true)?;
         unique.at_least(5, NAME)?;
-        let kept = unique.first_occurrences();
-        let pixels: Vec<_> = (kept.iter().map(|&i| pixels[i] - principal.coords)).collect();
+        let unique_indices = unique.first_occurrences();
+        let pixels: Vec<_> =
+            (unique_indices.iter().map(|&i| pixels[i] - principal.coords)).collect();
         let mut far: Vec<_> = pixels.iter().map(|p| p.coords.norm()).collect();
         Ok(Self {
-            points: kept.iter().map(|&i| points_in_world[i]).collect(),
+            points: unique_indices.iter().map(|&i| points_in_world[i]).collect(),
             focals_px: plausible_focals_px(&mut far),
             pixels,
             // The focal length is not used.
@@ -152,9 +153,9 @@ impl Estimator for AbsolutePoseFocalEstimator {
 
     fn error_sq(&self, (rotation, t, focal_px): &Self::Model, index: usize) -> f64 {
         let x = rotation * self.points[index].coords + t;
-        let seen = x.xy() * (focal_px / x.z);
+        let projected = x.xy() * (focal_px / x.z);
         if x.z > 0.0 {
-            (seen - self.pixels[index].coords).norm_squared()
+            (projected - self.pixels[index].coords).norm_squared()
         } else {
             f64::INFINITY
         }

@@ -89,8 +89,10 @@ pub fn fit_absolute_pose(
     })?;
     let cost = |pose: &RigidTransform| -> f64 {
         let error_sq = |(x, pixel): (&Point3<f64>, &Point2<f64>)| {
-            let seen = camera.project(&(pose * x));
-            seen.map_or(f64::INFINITY, |seen| (seen - pixel).norm_squared())
+            let projected = camera.project(&(pose * x));
+            projected.map_or(f64::INFINITY, |projected| {
+                (projected - pixel).norm_squared()
+            })
         };
         points_in_world.iter().zip(pixels).map(error_sq).sum()
     };
@@ -176,9 +178,10 @@ mod tests {
 
     /// Points within ±2, six away, in space or on z = 0.
     fn scene(random: &mut Random, count: usize, thickness: f64, noise_px: f64) -> Scene {
-        let turn = Vector3::from_fn(|_, _| 0.5 * random.normal());
+        let rotation_vector = Vector3::from_fn(|_, _| 0.5 * random.normal());
         let t = Vector3::new(0.3 * random.normal(), 0.3 * random.normal(), 7.0);
-        let truth = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
+        let truth =
+            RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(rotation_vector));
         let (mut points, mut pixels) = (Vec::new(), Vec::new());
         for _ in 0..count {
             let mut to = |reach: f64| random.uniform(-reach, reach);

@@ -60,8 +60,8 @@ pub fn find_flipped_pose(
     let loss = RobustLoss::Trivial;
     let other = refine_absolute_pose(&start, points_in_world, pixels, camera, loss)?;
     let is_other = other.rotation.angle_to(&cam_from_world.rotation) > SAME_RAD;
-    let sees_all = (points_in_world.iter()).all(|x| camera.project(&(other * x)).is_ok());
-    Ok((is_other && sees_all).then_some(other))
+    let shows_all = (points_in_world.iter()).all(|x| camera.project(&(other * x)).is_ok());
+    Ok((is_other && shows_all).then_some(other))
 }
 
 /// Returns the pose after reversing depths along the ray of the centroid and mirroring the points
@@ -74,15 +74,15 @@ fn flipped(pose: &RigidTransform, points: &[Point3<f64>]) -> Option<RigidTransfo
         .sum();
     let mirror = |normal: Vector3<f64>| Matrix3::identity() - 2.0 * normal * normal.transpose();
     let normal = pose.rotation * svd3(&spread).v.column(2).into_owned();
-    let seen = pose * center;
-    let ray = seen.coords.try_normalize(0.0)?;
-    let turn = mirror(ray) * mirror(normal);
-    if !turn.iter().all(|x| x.is_finite()) {
+    let in_cam = pose * center;
+    let ray = in_cam.coords.try_normalize(0.0)?;
+    let flip = mirror(ray) * mirror(normal);
+    if !flip.iter().all(|x| x.is_finite()) {
         return None;
     }
-    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
-    let rotation = turn * pose.rotation;
-    let translation = seen.coords - rotation * center.coords;
+    let flip = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(flip));
+    let rotation = flip * pose.rotation;
+    let translation = in_cam.coords - rotation * center.coords;
     Some(RigidTransform::from_parts(translation.into(), rotation))
 }
 
@@ -94,9 +94,9 @@ mod tests {
     use crate::math::random::Random;
 
     fn cost(pose: &RigidTransform, points: &[Point3<f64>], pixels: &[Point2<f64>]) -> f64 {
-        let seen = |x| camera().project(&(pose * x)).unwrap();
+        let project = |x| camera().project(&(pose * x)).unwrap();
         (points.iter().zip(pixels))
-            .map(|(x, pixel)| (seen(x) - pixel).norm_squared())
+            .map(|(x, pixel)| (project(x) - pixel).norm_squared())
             .sum()
     }
 
@@ -113,8 +113,8 @@ mod tests {
         let mut random = Random::new(5);
         let mut num_found = 0;
         for _ in 0..100 {
-            let turn = Vector3::from_fn(|_, _| random.uniform(-0.8, 0.8));
-            let truth = RigidTransform::new(Vector3::new(0.3, -0.2, 6.0), turn);
+            let rotation_vector = Vector3::from_fn(|_, _| random.uniform(-0.8, 0.8));
+            let truth = RigidTransform::new(Vector3::new(0.3, -0.2, 6.0), rotation_vector);
             let points: Vec<_> = (0..8)
                 .map(|_| Point3::new(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), 0.0))
                 .collect();

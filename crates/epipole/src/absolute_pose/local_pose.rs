@@ -80,10 +80,12 @@ impl Pivot {
         by_point: &Matrix2x3<f64>,
         from_pivot: &Vector3<f64>,
     ) -> SMatrix<f64, 2, 6> {
-        let by_turn = by_point * -from_pivot.cross_matrix();
+        let by_rotation = by_point * -from_pivot.cross_matrix();
         let by_shift = by_point * self.unit;
         let mut jacobian = SMatrix::<f64, 2, 6>::zeros();
-        jacobian.fixed_view_mut::<2, 3>(0, 0).copy_from(&by_turn);
+        jacobian
+            .fixed_view_mut::<2, 3>(0, 0)
+            .copy_from(&by_rotation);
         jacobian.fixed_view_mut::<2, 3>(0, 3).copy_from(&by_shift);
         jacobian
     }
@@ -93,9 +95,10 @@ impl Pivot {
         (rotation, pivot_in_cam): &LocalPose,
         delta: &SVector<f64, 6>,
     ) -> LocalPose {
-        let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
+        let delta_rotation =
+            Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
         (
-            turn.into_inner() * rotation,
+            delta_rotation.into_inner() * rotation,
             pivot_in_cam + Vector3::new(delta[3], delta[4], delta[5]) * self.unit,
         )
     }

@@ -49,8 +49,8 @@ impl PointErrors for PinholePoints<'_> {
     }
 
     fn residual(&self, x_in_cam: &Vector3<f64>, index: usize) -> Option<Vector2<f64>> {
-        let seen = self.intrinsics.project(&Point3::from(*x_in_cam)).ok()?;
-        Some(seen - self.pixels[index])
+        let projected = self.intrinsics.project(&Point3::from(*x_in_cam)).ok()?;
+        Some(projected - self.pixels[index])
     }
 
     fn linearized(&self, x: &Vector3<f64>, index: usize) -> Option<(Vector2<f64>, Matrix2x3<f64>)> {
@@ -72,16 +72,16 @@ impl PointErrors for PinholePoints<'_> {
 /// Points and their observations of a camera with any lens.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LensPoints<'a> {
-    pub(super) seen: &'a [Observation],
+    pub(super) observations: &'a [Observation],
 }
 
 impl PointErrors for LensPoints<'_> {
     fn depth(&self, x_in_cam: &Vector3<f64>, index: usize) -> f64 {
-        self.seen[index].ray().dot(x_in_cam)
+        self.observations[index].ray().dot(x_in_cam)
     }
 
     fn residual(&self, x_in_cam: &Vector3<f64>, index: usize) -> Option<Vector2<f64>> {
-        self.seen[index].offset_px(x_in_cam)
+        self.observations[index].offset_px(x_in_cam)
     }
 
     fn linearized(
@@ -89,6 +89,6 @@ impl PointErrors for LensPoints<'_> {
         x_in_cam: &Vector3<f64>,
         index: usize,
     ) -> Option<(Vector2<f64>, Matrix2x3<f64>)> {
-        self.seen[index].offset_with_derivative(x_in_cam)
+        self.observations[index].offset_with_derivative(x_in_cam)
     }
 }

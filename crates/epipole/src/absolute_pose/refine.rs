@@ -30,7 +30,7 @@ pub fn reprojection_error_px(
     pixel: &Point2<f64>,
 ) -> f64 {
     match camera.project(point_in_world) {
-        Ok(seen) => (seen - pixel).norm(),
+        Ok(observations) => (observations - pixel).norm(),
         Err(_) => f64::INFINITY,
     }
 }
@@ -107,8 +107,15 @@ pub fn refine_absolute_pose(
         let errors = PinholePoints { pixels, intrinsics };
         return refine_all(points_in_world, errors, start, loss);
     }
-    let seen: Result<Vec<_>> = pixels.iter().map(|pixel| camera.observe(pixel)).collect();
-    refine_all(points_in_world, LensPoints { seen: &seen? }, start, loss)
+    let observations: Result<Vec<_>> = pixels.iter().map(|pixel| camera.observe(pixel)).collect();
+    refine_all(
+        points_in_world,
+        LensPoints {
+            observations: &observations?,
+        },
+        start,
+        loss,
+    )
 }
 
 /// Body of [`refine_absolute_pose`].
@@ -294,12 +301,18 @@ mod tests {
                 intrinsics: &camera().intrinsics,
             };
             check_derivatives(&points, errors, &truth);
-            let seen = rays.map(|r| {
+            let observations = rays.map(|r| {
                 let pixel = fisheye().project(&r.into()).unwrap();
                 let off = Vector2::from_fn(|_, _| random.normal());
                 fisheye().observe(&(pixel + off)).unwrap()
             });
-            check_derivatives(&points, LensPoints { seen: &seen }, &truth);
+            check_derivatives(
+                &points,
+                LensPoints {
+                    observations: &observations,
+                },
+                &truth,
+            );
         }
     }
 

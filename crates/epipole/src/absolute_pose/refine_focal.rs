@@ -23,7 +23,7 @@ impl<'a> FocalProblem<'a> {
     }
 
     /// Returns the same pixels for a camera with other intrinsics.
-    fn seen_by<'b>(&'b self, intrinsics: &'b Intrinsics) -> PinholePoints<'b> {
+    fn points_with<'b>(&'b self, intrinsics: &'b Intrinsics) -> PinholePoints<'b> {
         PinholePoints {
             intrinsics,
             ..self.problem.errors
@@ -44,12 +44,12 @@ impl<'a> FocalProblem<'a> {
         index: usize,
     ) -> Option<(Vector2<f64>, SMatrix<f64, 2, 7>)> {
         let [x, from_pivot] = self.pivot.places(pose, &self.problem.points[index].coords);
-        let (residual, by_point) = self.seen_by(k).linearized(&x, index)?;
-        let seen = self.problem.errors.pixels[index].coords + residual;
+        let (residual, by_point) = self.points_with(k).linearized(&x, index)?;
+        let projected = self.problem.errors.pixels[index].coords + residual;
         let mut jacobian = SMatrix::<f64, 2, 7>::zeros();
         let by_pose = self.pivot.jacobian(&by_point, &from_pivot);
         jacobian.fixed_view_mut::<2, 6>(0, 0).copy_from(&by_pose);
-        jacobian.set_column(6, &(seen - k.principal_point().coords));
+        jacobian.set_column(6, &(projected - k.principal_point().coords));
         Some((residual, jacobian))
     }
 }
@@ -79,7 +79,7 @@ impl FixedProblem<7> for FocalProblem<'_> {
         let mut total = 0.0;
         for (index, root) in self.problem.used.iter() {
             let [x, _] = self.pivot.places(pose, &self.problem.points[index].coords);
-            match self.seen_by(&k).residual(&x, index) {
+            match self.points_with(&k).residual(&x, index) {
                 Some(residual) => {
                     total += 0.5 * self.problem.loss.rho((residual * root).norm_squared());
                 }
@@ -130,8 +130,8 @@ pub(super) fn relative_focal_deviation(
         .filter(|n| *n > 0)?;
     let variance = 2.0 * normal.cost / free as f64;
     let inverse = normal.hessian.cholesky()?.inverse();
-    let share = (variance * inverse[(6, 6)]).sqrt();
-    share.is_finite().then_some(share)
+    let deviation = (variance * inverse[(6, 6)]).sqrt();
+    deviation.is_finite().then_some(deviation)
 }
 
 /// Refines a solution for four points, with pixels relative to the principal point.

@@ -4,7 +4,7 @@
 const MAX_STEPS: usize = 8;
 
 /// Maximum angle between a solution and a ray, radians: far above rounding, far below relevance.
-const MAX_TURN: f64 = 1e-11;
+const MAX_ROTATION: f64 = 1e-11;
 
 /// Runs Newton's method on the three equations of the sides; returns false without a solution.
 ///
@@ -58,5 +58,5 @@ pub(super) fn polish(d: &mut [f64; 3], sides_sq: [f64; 3], versines: [f64; 3]) -
 /// error of r/(2a) of the side, or an angle of r/(2ad) at distance d.
 #[inline(always)]
 fn within(r: f64, side_sq: f64, depths_sq: f64) -> bool {
-    r * r <= MAX_TURN * MAX_TURN * side_sq * depths_sq
+    r * r <= MAX_ROTATION * MAX_ROTATION * side_sq * depths_sq
 }

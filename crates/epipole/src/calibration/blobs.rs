@@ -44,18 +44,18 @@ pub(super) fn find_blobs(
         .zip(mean.as_raw())
         .map(|(value, mean)| sign * (value - mean))
         .collect();
-    let mut seen = vec![false; contrast.len()];
+    let mut visited = vec![false; contrast.len()];
     let mut blobs = Vec::new();
     let mut stack = Vec::new();
     for start in 0..contrast.len() {
         if start % width == 0 {
-            let share = 0.8 + 0.2 * start as f32 / contrast.len() as f32;
-            report(monitor, stage, share)?;
+            let fraction = 0.8 + 0.2 * start as f32 / contrast.len() as f32;
+            report(monitor, stage, fraction)?;
         }
-        if seen[start] || contrast[start] < LEAST_CONTRAST {
+        if visited[start] || contrast[start] < LEAST_CONTRAST {
             continue;
         }
-        seen[start] = true;
+        visited[start] = true;
         stack.push(start);
         let mut spot = Vec::new();
         let mut at_border = false;
@@ -70,8 +70,8 @@ pub(super) fn find_blobs(
                 (v + 1 < height).then(|| at + width),
             ];
             for next in ways.into_iter().flatten() {
-                if !seen[next] && contrast[next] >= LEAST_CONTRAST {
-                    seen[next] = true;
+                if !visited[next] && contrast[next] >= LEAST_CONTRAST {
+                    visited[next] = true;
                     stack.push(next);
                 }
             }

@@ -228,14 +228,14 @@ pub struct BoardView {
 
 impl BoardView {
     /// Iterates over the visible marks with their pixels.
-    pub fn seen(&self) -> impl Iterator<Item = (usize, Point2<f64>)> + '_ {
+    pub fn visible(&self) -> impl Iterator<Item = (usize, Point2<f64>)> + '_ {
         let marks = self.pixels.iter().enumerate();
         marks.filter_map(|(mark, pixel)| pixel.map(|pixel| (mark, pixel)))
     }
 
     /// Returns the number of visible marks.
-    pub fn num_seen(&self) -> usize {
-        self.seen().count()
+    pub fn num_visible(&self) -> usize {
+        self.visible().count()
     }
 
     /// Returns whether all marks are visible.
@@ -247,7 +247,7 @@ impl BoardView {
     pub(super) fn spacing(&self, mark: usize, columns: usize) -> Option<f64> {
         let here = self.pixels[mark]?;
         let (column, row) = (mark % columns, mark / columns);
-        self.seen()
+        self.visible()
             .filter(|(other, _)| {
                 (other % columns).abs_diff(column) + (other / columns).abs_diff(row) == 1
             })
@@ -284,7 +284,10 @@ impl BoardView {
                 second: self.pixels.len(),
             });
         }
-        if !self.seen().all(|(_, p)| p.x.is_finite() && p.y.is_finite()) {
+        if !self
+            .visible()
+            .all(|(_, p)| p.x.is_finite() && p.y.is_finite())
+        {
             return Err(Error::NotFinite {
                 what: "the pixel of a board's mark",
             });

@@ -20,7 +20,7 @@ pub enum BoardSearch {
         /// Number of marks along the shorter side.
         rows: usize,
         /// Number of visible marks.
-        num_seen: usize,
+        num_visible: usize,
     },
     /// Markers, but too few marks of the board, or not in the arrangement of the board.
     Markers {
@@ -60,11 +60,11 @@ impl BoardSearch {
                  margin around it"
             )),
             Self::Partial {
-                columns: seen_columns,
-                rows: seen_rows,
-                num_seen,
+                columns: found_columns,
+                rows: found_rows,
+                num_visible,
             } => {
-                let larger = *seen_columns > columns.max(rows) || *seen_rows > columns.min(rows);
+                let larger = *found_columns > columns.max(rows) || *found_rows > columns.min(rows);
                 let why = if larger {
                     "the board is of another size, or something beside it looks alike: count its marks once more, or cover \
                      what is beside it"
@@ -73,7 +73,7 @@ impl BoardSearch {
                      marks once more"
                 };
                 Some(format!(
-                    "a grid of {seen_columns} × {seen_rows} with {num_seen} marks was found, not {columns} × {rows}: {why}"
+                    "a grid of {found_columns} × {found_rows} with {num_visible} marks was found, not {columns} × {rows}: {why}"
                 ))
             }
         }
@@ -81,13 +81,13 @@ impl BoardSearch {
 
     /// Discards accidental grids: corners of other objects also form rows, but a real grid has at
     /// least two rows and columns, and half of it is visible.
-    pub(super) fn unless_by_chance(self) -> Self {
+    pub(super) fn unless_accidental(self) -> Self {
         match self {
             Self::Partial {
                 columns,
                 rows,
-                num_seen,
-            } if columns.min(rows) < 2 || 2 * num_seen < columns * rows => Self::Nothing,
+                num_visible,
+            } if columns.min(rows) < 2 || 2 * num_visible < columns * rows => Self::Nothing,
             search => search,
         }
     }
@@ -98,29 +98,29 @@ impl BoardSearch {
         let &Self::Partial {
             columns,
             rows,
-            num_seen,
+            num_visible,
         } = self
         else {
             return false;
         };
         let (longer, shorter) = (board.columns(), board.rows());
         let is_larger = columns > longer.max(shorter) || rows > longer.min(shorter);
-        let is_whole = num_seen as f64 >= WHOLE * (columns * rows) as f64;
+        let is_whole = num_visible as f64 >= WHOLE * (columns * rows) as f64;
         is_larger
             && is_whole
-            && num_seen as f64 >= MORE * view.num_seen() as f64
+            && num_visible as f64 >= MORE * view.num_visible() as f64
             && !view.is_whole()
     }
 
     /// Returns the result with more marks.
     pub(super) fn or_more(self, other: Self) -> Self {
-        let num_seen = |search: &Self| match search {
-            Self::Found(view) => usize::MAX - view.pixels.len() + view.num_seen(),
-            Self::Partial { num_seen, .. } => *num_seen,
+        let num_visible = |search: &Self| match search {
+            Self::Found(view) => usize::MAX - view.pixels.len() + view.num_visible(),
+            Self::Partial { num_visible, .. } => *num_visible,
             Self::Markers { num_of_board, .. } => *num_of_board,
             Self::Nothing => 0,
         };
-        if num_seen(&other) > num_seen(&self) {
+        if num_visible(&other) > num_visible(&self) {
             other
         } else {
             self
@@ -150,17 +150,17 @@ mod tests {
 
     #[test]
     fn a_few_corners_in_a_row_are_no_board_of_another_size() {
-        let search = |columns, rows, num_seen| {
+        let search = |columns, rows, num_visible| {
             BoardSearch::Partial {
                 columns,
                 rows,
-                num_seen,
+                num_visible,
             }
-            .unless_by_chance()
+            .unless_accidental()
         };
         // As in images of other objects.
-        for (columns, rows, num_seen) in [(15, 11, 9), (3, 1, 3)] {
-            assert_eq!(search(columns, rows, num_seen), BoardSearch::Nothing);
+        for (columns, rows, num_visible) in [(15, 11, 9), (3, 1, 3)] {
+            assert_eq!(search(columns, rows, num_visible), BoardSearch::Nothing);
         }
         // A board whose last column is outside the image.
         assert_ne!(search(8, 6, 41), BoardSearch::Nothing);
@@ -169,15 +169,15 @@ mod tests {
     #[test]
     fn a_whole_larger_grid_outdoes_part_of_a_board() {
         let board = Board::new(Pattern::Chessboard, 7, 6, 0.025).unwrap();
-        let view = |num_seen: usize| BoardView {
+        let view = |num_visible: usize| BoardView {
             pixels: (0..42)
-                .map(|n| (n < num_seen).then(|| Point2::new(n as f64, 0.0)))
+                .map(|n| (n < num_visible).then(|| Point2::new(n as f64, 0.0)))
                 .collect(),
         };
-        let grid = |columns, rows, num_seen| BoardSearch::Partial {
+        let grid = |columns, rows, num_visible| BoardSearch::Partial {
             columns,
             rows,
-            num_seen,
+            num_visible,
         };
         assert!(grid(9, 6, 54).outdoes(&view(38), &board));
         assert!(grid(9, 7, 55).outdoes(&view(38), &board));

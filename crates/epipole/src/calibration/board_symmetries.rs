@@ -9,8 +9,8 @@ use nalgebra::{Translation3, Vector3};
 pub(super) struct BoardSymmetry {
     /// For each mark of the rotated board, the mark previously at this position.
     mark_before: Vec<usize>,
-    /// `x_in_board = board_from_turned * x_in_turned`.
-    pub(super) board_from_turned: RigidTransform,
+    /// `x_in_board = board_from_rotated * x_in_turned`.
+    pub(super) board_from_rotated: RigidTransform,
 }
 
 impl BoardSymmetry {
@@ -43,7 +43,7 @@ pub(super) fn board_symmetries(board: &Board) -> Vec<BoardSymmetry> {
     };
     let (last_column, last_row) = (columns - 1, rows - 1);
     let middle = Vector3::new(last_column as f64, last_row as f64, 0.0) * (0.5 * board.square_m());
-    let turn = |&quarters: &usize| {
+    let symmetry = |&quarters: &usize| {
         let before = |mark: usize| {
             let (row, column) = (mark / columns, mark % columns);
             let (row, column) = match quarters {
@@ -59,10 +59,10 @@ pub(super) fn board_symmetries(board: &Board) -> Vec<BoardSymmetry> {
         let shift = middle - rotation * middle;
         BoardSymmetry {
             mark_before: (0..board.num_marks()).map(before).collect(),
-            board_from_turned: RigidTransform::from_parts(Translation3::from(shift), rotation),
+            board_from_rotated: RigidTransform::from_parts(Translation3::from(shift), rotation),
         }
     };
-    quarters.iter().map(turn).collect()
+    quarters.iter().map(symmetry).collect()
 }
 
 #[cfg(test)]
@@ -71,18 +71,18 @@ mod tests {
     use nalgebra::Point3;
 
     #[test]
-    fn marks_are_where_the_turn_brings_them() {
+    fn marks_are_where_the_rotation_moves_them() {
         for (columns, rows, num) in [(9, 6, 1), (7, 5, 2), (8, 6, 2), (6, 6, 4), (7, 7, 2)] {
             let board = Board::new(Pattern::Chessboard, columns, rows, 0.03).unwrap();
-            let turns = board_symmetries(&board);
-            assert_eq!(turns.len(), num, "{columns} × {rows}");
-            for turn in turns {
-                for (mark, &before) in turn.mark_before.iter().enumerate() {
+            let symmetries = board_symmetries(&board);
+            assert_eq!(symmetries.len(), num, "{columns} × {rows}");
+            for symmetry in symmetries {
+                for (mark, &before) in symmetry.mark_before.iter().enumerate() {
                     let [from, to] = [mark, before].map(|mark| {
                         let place = board.mark(mark);
                         Point3::new(place.x, place.y, 0.0)
                     });
-                    assert!((turn.board_from_turned * from - to).norm() < 1e-12);
+                    assert!((symmetry.board_from_rotated * from - to).norm() < 1e-12);
                 }
             }
         }

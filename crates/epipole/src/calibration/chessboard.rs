@@ -46,8 +46,8 @@ pub(super) fn find_chessboard(
     let mut seeds: Vec<usize> = (0..saddles.len()).collect();
     seeds.sort_by_key(|&i| (4 - num_links(i), i));
     for (k, seed) in seeds.into_iter().enumerate() {
-        let share = 0.8 + 0.2 * k as f32 / saddles.len() as f32;
-        report(monitor, Stage::FeatureDetection, share)?;
+        let fraction = 0.8 + 0.2 * k as f32 / saddles.len() as f32;
+        report(monitor, Stage::FeatureDetection, fraction)?;
         if taken[seed] || num_links(seed) < 2 {
             continue;
         }
@@ -284,12 +284,12 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
     let partial = BoardSearch::Partial {
         columns: a.max(b),
         rows: a.min(b),
-        num_seen: grid.points.len(),
+        num_visible: grid.points.len(),
     };
     // Prefer the fewest hidden corners, then a dark quadrant inside the first corner, then upright.
     let mut best: Option<((usize, bool, f64), BoardView)> = None;
     for quarter in 0..4 {
-        let lattice = grid.mapped(|cell| turned(cell, quarter));
+        let lattice = grid.mapped(|cell| rotated(cell, quarter));
         let Some(extent) = lattice.extent() else {
             continue;
         };
@@ -312,7 +312,7 @@ fn place_on_board(grid: &Lattice, board: &Board) -> BoardSearch {
                     .map(|k| lattice.points.get(&cell(k)).copied())
                     .collect(),
             };
-            let inside = view.num_seen();
+            let inside = view.num_visible();
             if goes_on(&lattice, first, columns, rows)
                 || (inside as f64) < MIN_RATIO * (rows * columns) as f64
                 || !reaches_all_sides(&view, columns, rows)
@@ -348,7 +348,7 @@ fn goes_on(lattice: &Lattice, (left, top): Cell, columns: usize, rows: usize) ->
 }
 
 /// Returns a cell in axes rotated by `quarters` times 90°.
-fn turned((i, j): Cell, quarters: i32) -> Cell {
+fn rotated((i, j): Cell, quarters: i32) -> Cell {
     match quarters {
         0 => (i, j),
         1 => (-j, i),
@@ -359,9 +359,9 @@ fn turned((i, j): Cell, quarters: i32) -> Cell {
 
 /// Returns u + v of the first corner minus that of the last, pixels.
 pub(super) fn slope(view: &BoardView) -> f64 {
-    let mut seen = view.pixels.iter().flatten().map(|p| p.x + p.y);
-    let first = seen.next().unwrap_or(0.0);
-    first - seen.next_back().unwrap_or(first)
+    let mut sums = view.pixels.iter().flatten().map(|p| p.x + p.y);
+    let first = sums.next().unwrap_or(0.0);
+    first - sums.next_back().unwrap_or(first)
 }
 
 /// Returns whether the outermost rows and columns are visible, so that corners are identified

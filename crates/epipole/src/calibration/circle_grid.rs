@@ -33,8 +33,8 @@ pub(super) fn find_circle_grid(
         let blobs = find_blobs(image, bright, &mut Part::new(part, 0.0, 0.5))?;
         let mut taken = vec![false; blobs.len()];
         for seed in 0..blobs.len() {
-            let share = 0.5 + 0.5 * seed as f32 / blobs.len() as f32;
-            report(part, Stage::FeatureDetection, share)?;
+            let fraction = 0.5 + 0.5 * seed as f32 / blobs.len() as f32;
+            report(part, Stage::FeatureDetection, fraction)?;
             let Some(frame) = frame_of(seed, &blobs).filter(|_| !taken[seed]) else {
                 continue;
             };
@@ -73,8 +73,9 @@ fn frame_of(seed: usize, blobs: &[Blob]) -> Option<[Vector2<f64>; 2]> {
             return None;
         }
         let (first, second) = ((a - opposite) / 2.0, (e - f) / 2.0);
-        let turn = first.perp(&second);
-        (turn.abs() > 0.2 * first.norm() * second.norm()).then(|| [first, second * turn.signum()])
+        let orientation = first.perp(&second);
+        (orientation.abs() > 0.2 * first.norm() * second.norm())
+            .then(|| [first, second * orientation.signum()])
     })
 }
 
@@ -125,13 +126,13 @@ fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
     let Some((across, down)) = grid.extent().map(|extent| extent.size()) else {
         return BoardSearch::Nothing;
     };
-    let turned = (0..4).map(|quarters| match quarters {
+    let rotated = (0..4).map(|quarters| match quarters {
         0 => grid.clone(),
         1 => grid.mapped(|(i, j)| (-j, i)),
         2 => grid.mapped(|(i, j)| (-i, -j)),
         _ => grid.mapped(|(i, j)| (j, -i)),
     });
-    let views = turned.filter_map(|lattice| {
+    let views = rotated.filter_map(|lattice| {
         let extent = lattice.extent()?;
         let first = extent.least;
         let at = |mark: usize| {
@@ -144,7 +145,7 @@ fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
         let view = BoardView {
             pixels: (0..board.num_marks()).map(at).collect(),
         };
-        let is_most = view.num_seen() as f64 >= MIN_RATIO * board.num_marks() as f64;
+        let is_most = view.num_visible() as f64 >= MIN_RATIO * board.num_marks() as f64;
         (extent.size() == (columns, rows) && is_most).then_some(view)
     });
     let upright = views.min_by(|a, b| slope(a).total_cmp(&slope(b)));
@@ -152,7 +153,7 @@ fn place_in_rows(grid: &Lattice, board: &Board) -> BoardSearch {
         BoardSearch::Partial {
             columns: across.max(down),
             rows: across.min(down),
-            num_seen: grid.points.len(),
+            num_visible: grid.points.len(),
         },
         BoardSearch::Found,
     )
@@ -178,7 +179,7 @@ fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
             partial = partial.or_more(BoardSearch::Partial {
                 columns: across.div_ceil(2).max(down),
                 rows: across.div_ceil(2).min(down),
-                num_seen: diagonal.points.len(),
+                num_visible: diagonal.points.len(),
             });
         }
         let first = extent.least;
@@ -198,7 +199,7 @@ fn place_shifted(grid: &Lattice, board: &Board) -> BoardSearch {
             })
             .collect();
         let view = BoardView { pixels };
-        if view.num_seen() as f64 >= MIN_RATIO * board.num_marks() as f64 {
+        if view.num_visible() as f64 >= MIN_RATIO * board.num_marks() as f64 {
             return BoardSearch::Found(view);
         }
     }

@@ -28,8 +28,8 @@ const WHAT: &str = "the intrinsics from views of a plane";
 /// use epipole::calibration::intrinsics_from_planes;
 /// use nalgebra::{Matrix3, Rotation3, Vector3};
 /// let k = Matrix3::new(700.0, 0.0, 320.0, 0.0, 650.0, 240.0, 0.0, 0.0, 1.0);
-/// let views = [[0.5, 0.0, 0.1], [0.0, 0.6, 0.0], [-0.4, 0.3, 0.2]].map(|turn| {
-///     let r = Rotation3::from_scaled_axis(Vector3::from(turn)).into_inner();
+/// let views = [[0.5, 0.0, 0.1], [0.0, 0.6, 0.0], [-0.4, 0.3, 0.2]].map(|rotation_vector| {
+///     let r = Rotation3::from_scaled_axis(Vector3::from(rotation_vector)).into_inner();
 ///     k * Matrix3::from_columns(&[r.column(0).into_owned(), r.column(1).into_owned(), Vector3::new(0.1, 0.2, 3.0)])
 /// });
 /// let found = intrinsics_from_planes(&views)?;
@@ -177,8 +177,8 @@ mod tests {
     use crate::math::random::Random;
     use nalgebra::Rotation3;
 
-    fn view(k: &Intrinsics, turn: Vector3<f64>, t: Vector3<f64>) -> Matrix3<f64> {
-        let r = Rotation3::from_scaled_axis(turn).into_inner();
+    fn view(k: &Intrinsics, rotation_vector: Vector3<f64>, t: Vector3<f64>) -> Matrix3<f64> {
+        let r = Rotation3::from_scaled_axis(rotation_vector).into_inner();
         k.matrix() * Matrix3::from_columns(&[r.column(0).into(), r.column(1).into(), t])
     }
 
@@ -195,9 +195,9 @@ mod tests {
             .unwrap();
             let views: Vec<_> = (0..3 + trial % 5)
                 .map(|_| {
-                    let turn = Vector3::from_fn(|_, _| random.uniform(-0.7, 0.7));
+                    let rotation_vector = Vector3::from_fn(|_, _| random.uniform(-0.7, 0.7));
                     let t = Vector3::new(random.normal(), random.normal(), 5.0);
-                    view(&k, turn, t) * random.uniform(-2.0, 2.0)
+                    view(&k, rotation_vector, t) * random.uniform(-2.0, 2.0)
                 })
                 .collect();
             let found = intrinsics_from_planes(&views).unwrap();
@@ -210,8 +210,8 @@ mod tests {
     #[test]
     fn views_that_leave_it_open_are_refused() {
         let k = Intrinsics::centered(600.0, 640, 480).unwrap();
-        let turn = Vector3::new(0.3, -0.2, 0.1);
-        let at = |x: f64| view(&k, turn, Vector3::new(x, 0.0, 4.0 + x));
+        let rotation_vector = Vector3::new(0.3, -0.2, 0.1);
+        let at = |x: f64| view(&k, rotation_vector, Vector3::new(x, 0.0, 4.0 + x));
         let parallel = [at(0.0), at(0.5), at(1.0), at(-0.4)];
         for views in [&parallel[..], &parallel[..1], &[Matrix3::zeros(); 3]] {
             assert!(intrinsics_from_planes(views).is_err());

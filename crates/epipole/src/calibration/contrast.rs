@@ -14,7 +14,7 @@ const NOTHING: f32 = 4.0 / 255.0;
 
 /// Stretches the gray values in use to the range 0 to 1, if it is narrow, as from thermal cameras
 /// or in fog. Positions do not change.
-pub(super) fn stretched(image: &GrayImage32) -> Option<GrayImage32> {
+pub(super) fn stretch_contrast(image: &GrayImage32) -> Option<GrayImage32> {
     let mut values = image.as_raw().clone();
     let last = values.len().checked_sub(1)?;
     let beyond = (BEYOND * last as f64) as usize;
@@ -41,9 +41,11 @@ mod tests {
             let gray = |u: u32, _| Luma([low + (high - low) * (u % 2) as f32]);
             GrayImage32::from_fn(40, 30, gray)
         };
-        let image = stretched(&of(0.4, 0.45)).unwrap();
+        let image = stretch_contrast(&of(0.4, 0.45)).unwrap();
         assert_eq!((image.as_raw()[0], image.as_raw()[1]), (0.0, 1.0));
-        assert!(stretched(&of(0.1, 0.9)).is_none() && stretched(&of(0.5, 0.5)).is_none());
-        assert!(stretched(&GrayImage32::new(0, 0)).is_none());
+        assert!(
+            stretch_contrast(&of(0.1, 0.9)).is_none() && stretch_contrast(&of(0.5, 0.5)).is_none()
+        );
+        assert!(stretch_contrast(&GrayImage32::new(0, 0)).is_none());
     }
 }

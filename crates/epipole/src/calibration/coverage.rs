@@ -13,7 +13,7 @@ pub(super) fn coverage(views: &[&BoardView], (width, height): (u32, u32)) -> f64
     let (columns, rows) = (cells(width), cells(height));
     let outlines: Vec<Vec<Point2<f64>>> = views
         .iter()
-        .map(|view| convex_hull(view.seen().map(|(_, pixel)| pixel).collect()))
+        .map(|view| convex_hull(view.visible().map(|(_, pixel)| pixel).collect()))
         .collect();
     let mut covered = 0;
     for row in 0..rows {
@@ -28,7 +28,7 @@ pub(super) fn coverage(views: &[&BoardView], (width, height): (u32, u32)) -> f64
     f64::from(covered) / f64::from(columns * rows)
 }
 
-fn turn(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
+fn cross(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
     (b - a).perp(&(c - a))
 }
 
@@ -39,7 +39,7 @@ fn convex_hull(mut points: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
         let mut chain: Vec<Point2<f64>> = Vec::new();
         for p in points {
             while chain.len() >= 2
-                && turn(&chain[chain.len() - 2], &chain[chain.len() - 1], &p) <= 0.0
+                && cross(&chain[chain.len() - 2], &chain[chain.len() - 1], &p) <= 0.0
             {
                 chain.pop();
             }
@@ -55,7 +55,7 @@ fn convex_hull(mut points: Vec<Point2<f64>>) -> Vec<Point2<f64>> {
 
 fn is_inside(hull: &[Point2<f64>], point: &Point2<f64>) -> bool {
     let count = hull.len();
-    count >= 3 && (0..count).all(|i| turn(&hull[i], &hull[(i + 1) % count], point) >= 0.0)
+    count >= 3 && (0..count).all(|i| cross(&hull[i], &hull[(i + 1) % count], point) >= 0.0)
 }
 
 #[cfg(test)]
@@ -70,9 +70,9 @@ mod tests {
                 .to_vec(),
         };
         let (a, b) = (view(0.3, 0.3, 50.0), view(25.3, 25.3, 50.0));
-        let share = coverage(&[&a, &b], (100, 100));
+        let ratio = coverage(&[&a, &b], (100, 100));
         let truth = (2500.0 + 2500.0 - 625.0) / 10_000.0;
-        assert!((share - truth).abs() < 0.01, "{share}");
+        assert!((ratio - truth).abs() < 0.01, "{ratio}");
         assert_eq!(coverage(&[], (640, 480)), 0.0);
         let hidden = BoardView {
             pixels: vec![None; 54],

@@ -3,7 +3,7 @@
 use super::board_search::BoardSearch;
 use super::chessboard::find_chessboard;
 use super::circle_grid::find_circle_grid;
-use super::contrast::stretched;
+use super::contrast::stretch_contrast;
 use super::crossing::edges_through;
 use super::marker_board::find_marker_board;
 use super::refine_mark::{CLEAR_SQUARES, refine_mark};
@@ -53,7 +53,7 @@ const FIRST_SIDE: u32 = 1300;
 /// });
 /// let board = Board::new(Pattern::Chessboard, 5, 4, 0.02)?;
 /// let view = find_board(&image, &board, &mut ())?.view().expect("a board");
-/// assert_eq!(view.num_seen(), 20);
+/// assert_eq!(view.num_visible(), 20);
 /// let first = view.pixels[0].expect("the first corner");
 /// assert!((first - nalgebra::Point2::new(119.5, 99.5)).norm() < 0.01 || (first - nalgebra::Point2::new(39.5, 39.5)).norm() < 0.01);
 /// # Ok(()) }
@@ -69,7 +69,7 @@ pub fn find_board(
     let found = search(image, board, &mut Part::new(monitor, 0.0, 0.5))?;
     if found == BoardSearch::Nothing {
         report(monitor, Stage::FeatureDetection, 0.5)?;
-        if let Some(stretched) = stretched(image) {
+        if let Some(stretched) = stretch_contrast(image) {
             return search(&stretched, board, &mut Part::new(monitor, 0.5, 1.0));
         }
     }
@@ -117,16 +117,16 @@ fn search(image: &GrayImage32, board: &Board, monitor: &mut dyn Monitor) -> Resu
             if board.pattern() != Pattern::Chessboard {
                 return Ok(BoardSearch::Found(at_full_size));
             }
-            let refined = refined(image, &at_full_size, board.columns())?;
+            let refined = refine_corners(image, &at_full_size, board.columns())?;
             return Ok(BoardSearch::Found(refined));
         }
         best = best.or_more(found);
     }
-    Ok(best.unless_by_chance())
+    Ok(best.unless_accidental())
 }
 
 /// Refines corners with sub-pixel accuracy. Corners that move too far are dropped.
-fn refined(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
+fn refine_corners(image: &GrayImage32, view: &BoardView, columns: usize) -> Result<BoardView> {
     let mut pixels = Vec::with_capacity(view.pixels.len());
     for (mark, pixel) in view.pixels.iter().enumerate() {
         let Some(pixel) = pixel else {
@@ -160,7 +160,7 @@ fn beside(view: &BoardView, mark: usize, columns: usize) -> [[Option<Point2<f64>
             (before.is_some() || behind.is_some())
                 .then(|| (far(other), behind.unwrap_or(at) - before.unwrap_or(at)))
         };
-        let nearest = view.seen().filter_map(step).min_by_key(|(far, _)| *far);
+        let nearest = view.visible().filter_map(step).min_by_key(|(far, _)| *far);
         if let (Some((_, step)), Some(Some(at))) = (nearest, view.pixels.get(mark)) {
             pair[1] = Some(at + step);
         }
@@ -198,7 +198,7 @@ mod tests {
     /// Maximum and RMS distance from the truth.
     fn errors(found: &BoardView, truth: &BoardView) -> (f64, f64) {
         let errors: Vec<f64> = found
-            .seen()
+            .visible()
             .map(|(mark, pixel)| (pixel - truth.pixels[mark].unwrap()).norm())
             .collect();
         let sum: f64 = errors.iter().map(|e| e * e).sum();
@@ -229,7 +229,7 @@ mod tests {
                     println!("{number} {seed}: {problem:?}");
                     continue;
                 };
-                assert!(problem.is_none() && view.num_seen() >= 50);
+                assert!(problem.is_none() && view.num_visible() >= 50);
                 let (largest, rms) = errors(&view, &truth);
                 assert!(
                     largest < 0.5 && rms < 0.12,
@@ -275,7 +275,11 @@ mod tests {
             }
         }
         let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
-        assert!((30..=50).contains(&view.num_seen()), "{}", view.num_seen());
+        assert!(
+            (30..=50).contains(&view.num_visible()),
+            "{}",
+            view.num_visible()
+        );
         let (largest, rms) = errors(&view, &truth);
         assert!(largest < 0.6 && rms < 0.15, "{largest} {rms}");
     }
@@ -287,7 +291,7 @@ mod tests {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
         let [camera, ..] = cameras();
         let mut random = Random::new(2);
-        let (mut num_seen, mut worst) = (0, 0.0_f64);
+        let (mut num_visible, mut worst) = (0, 0.0_f64);
         for (number, pose) in (poses(&board, 12, 15.0, 5).iter()).enumerate() {
             let truth = true_view(&board, &camera, pose);
             let mut image =
@@ -308,11 +312,11 @@ mod tests {
                 }
             }
             if let Some(view) = find_board(&image, &board, &mut ()).unwrap().view() {
-                num_seen += view.num_seen();
+                num_visible += view.num_visible();
                 worst = worst.max(errors(&view, &truth).0);
             }
         }
-        assert!(num_seen > 500 && worst < 0.2, "{num_seen} {worst}");
+        assert!(num_visible > 500 && worst < 0.2, "{num_visible} {worst}");
     }
 
     #[test]
@@ -338,7 +342,7 @@ mod tests {
                         println!("{number} {seed}: {problem:?}");
                         continue;
                     };
-                    assert_eq!(view.num_seen(), 44);
+                    assert_eq!(view.num_visible(), 44);
                     // The center of an ellipse differs from the projection of the disk's center by
                     // a tenth of a pixel.
                     let (largest, rms) = errors(&view, &truth);
@@ -363,7 +367,7 @@ mod tests {
             let truth = true_view(&board, &camera, pose);
             let image = render_board(&board, &camera, pose, 0.01, seed as u64, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
-            assert_eq!(view.num_seen(), 35);
+            assert_eq!(view.num_visible(), 35);
             // The center of an ellipse differs from the projection of the disk's center.
             let (largest, rms) = errors(&view, &truth);
             assert!(largest < 0.4 && rms < 0.15, "{seed}: {largest} {rms}");
@@ -386,29 +390,29 @@ mod tests {
     }
 
     #[test]
-    fn a_sentence_says_why_there_is_none() {
+    fn a_sentence_explains_why_there_is_none() {
         let board = Board::new(Pattern::Chessboard, 9, 6, 0.025).unwrap();
         let [camera, ..] = cameras();
         let pose = poses(&board, 1, 17.0, 3)[0];
-        let told = |pose: &RigidTransform, columns: usize, rows: usize| {
+        let problem_of = |pose: &RigidTransform, columns: usize, rows: usize| {
             let image = render_board(&board, &camera, pose, 0.01, 2, &mut ()).unwrap();
             let wanted = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
             let search = find_board(&image, &wanted, &mut ()).unwrap();
             assert!(!matches!(search, BoardSearch::Found(_)));
             search.problem(&wanted).unwrap()
         };
-        let smaller = told(&pose, 8, 6);
+        let smaller = problem_of(&pose, 8, 6);
         assert!(
             smaller.contains("9 × 6") && smaller.contains("another size"),
             "{smaller}"
         );
-        let larger = told(&pose, 10, 7);
+        let larger = problem_of(&pose, 10, 7);
         assert!(
             larger.contains("9 × 6") && larger.contains("10 × 7"),
             "{larger}"
         );
         let half_out = RigidTransform::translation(0.18, 0.0, 0.0) * pose;
-        assert!(told(&half_out, 9, 6).contains("outside of the picture"));
+        assert!(problem_of(&half_out, 9, 6).contains("outside of the picture"));
         let nothing = GrayImage32::from_pixel(200, 100, Luma([0.5]));
         let search = find_board(&nothing, &board, &mut ()).unwrap();
         assert!(

@@ -52,18 +52,18 @@ impl Footprint {
 
 /// Returns the part of a convex polygon where the linear function `height` is not negative.
 fn cut(polygon: &[Point2<f64>], height: impl Fn(&Point2<f64>) -> f64) -> ArrayVec<Point2<f64>, 8> {
-    let mut kept = ArrayVec::new();
+    let mut clipped = ArrayVec::new();
     for (i, p) in polygon.iter().enumerate() {
         let q = &polygon[(i + 1) % polygon.len()];
         let (a, b) = (height(p), height(q));
         if a >= 0.0 {
-            kept.push(*p);
+            clipped.push(*p);
         }
         if (a >= 0.0) != (b >= 0.0) {
-            kept.push(p + (q - p) * (a / (a - b)));
+            clipped.push(p + (q - p) * (a / (a - b)));
         }
     }
-    kept
+    clipped
 }
 
 /// Returns the area of a polygon.
@@ -139,34 +139,43 @@ mod tests {
             [[0.1, 0.2], [-0.2, 0.9], [1.1, 1.2], [1.3, -0.1]],
             [[-3.0, -3.0], [3.0, -3.1], [3.2, 3.0], [-3.0, 3.0]],
         ] {
-            let seen = footprint(corners);
-            let whole = counted(&seen, |_| true);
-            assert!((seen.area() - whole).abs() < 2e-3 * whole);
+            let footprint_of_square = footprint(corners);
+            let whole = counted(&footprint_of_square, |_| true);
+            assert!((footprint_of_square.area() - whole).abs() < 2e-3 * whole);
             for (x, y) in [(0.0, 0.0), (0.5, 0.5), (1.0, 0.2), (1.4, 0.9), (5.0, 5.0)] {
                 let (low, high) = (Point2::new(x - 0.6, y - 0.3), Point2::new(x + 0.2, y + 0.4));
-                let exact = counted(&seen, |p| {
+                let exact = counted(&footprint_of_square, |p| {
                     (low.x..high.x).contains(&p.x) && (low.y..high.y).contains(&p.y)
                 });
-                assert!((seen.area_in_rectangle(low, high) - exact).abs() < 2e-3 * whole);
+                assert!(
+                    (footprint_of_square.area_in_rectangle(low, high) - exact).abs() < 2e-3 * whole
+                );
                 let center = Point2::new(x, y);
-                let exact = counted(&seen, |p| (p - center).norm() < 0.55);
-                assert!((seen.area_in_disk(center, 0.55) - exact).abs() < 2e-3 * whole);
+                let exact = counted(&footprint_of_square, |p| (p - center).norm() < 0.55);
+                assert!(
+                    (footprint_of_square.area_in_disk(center, 0.55) - exact).abs() < 2e-3 * whole
+                );
             }
         }
     }
 
     #[test]
     fn all_of_a_disk_or_none_of_it() {
-        let seen = footprint([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]]);
-        let whole = seen.area_in_disk(Point2::new(0.3, -0.4), 1.5);
+        let footprint_of_square = footprint([[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]]);
+        let whole = footprint_of_square.area_in_disk(Point2::new(0.3, -0.4), 1.5);
         assert!((whole - PI * 2.25).abs() < 1e-12);
-        assert!(seen.area_in_disk(Point2::new(4.0, 4.0), 1.5).abs() < 1e-12);
+        assert!(
+            footprint_of_square
+                .area_in_disk(Point2::new(4.0, 4.0), 1.5)
+                .abs()
+                < 1e-12
+        );
         // A disk that contains the footprint.
-        assert!((seen.area_in_disk(Point2::origin(), 9.0) - 16.0).abs() < 1e-12);
+        assert!((footprint_of_square.area_in_disk(Point2::origin(), 9.0) - 16.0).abs() < 1e-12);
         // Centered on an edge, and on a corner.
-        let half = seen.area_in_disk(Point2::new(2.0, 0.0), 1.0);
+        let half = footprint_of_square.area_in_disk(Point2::new(2.0, 0.0), 1.0);
         assert!((half - PI / 2.0).abs() < 1e-12);
-        let quarter = seen.area_in_disk(Point2::new(2.0, 2.0), 1.0);
+        let quarter = footprint_of_square.area_in_disk(Point2::new(2.0, 2.0), 1.0);
         assert!((quarter - PI / 4.0).abs() < 1e-12);
     }
 }

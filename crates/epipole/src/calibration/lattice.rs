@@ -88,24 +88,24 @@ impl Lattice {
 
     /// Returns the distance of a point from the prediction of its row and column, relative to a
     /// step; the lower median of all predictions.
-    fn strayed(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
-        let mut shares = Vec::new();
+    fn relative_deviation(&self, (i, j): Cell, place: &Point2<f64>) -> Option<f64> {
+        let mut ratios = Vec::new();
         for (di, dj) in [(1, 0), (0, 1)] {
             let at = |s: i32| self.points.get(&(i + s * di, j + s * dj));
             if let (Some(a), Some(b)) = (at(-1), at(1)) {
                 let step = 0.5 * (b - a).norm();
-                shares.push((nalgebra::center(a, b) - place).norm() / step);
+                ratios.push((nalgebra::center(a, b) - place).norm() / step);
             }
             for s in [1, -1] {
                 if let (Some(near), Some(far)) = (at(s), at(2 * s)) {
                     let step = near - far;
-                    shares.push((near + step - place).norm() / step.norm());
+                    ratios.push((near + step - place).norm() / step.norm());
                 }
             }
         }
-        shares.sort_by(f64::total_cmp);
-        let middle = shares.len().checked_sub(1)? / 2;
-        Some(shares[middle])
+        ratios.sort_by(f64::total_cmp);
+        let middle = ratios.len().checked_sub(1)? / 2;
+        Some(ratios[middle])
     }
 
     /// Removes points far from the continuation of their rows and columns, and isolated points.
@@ -114,8 +114,8 @@ impl Lattice {
             .points
             .iter()
             .filter(|(cell, place)| {
-                self.strayed(**cell, place)
-                    .is_none_or(|share| share.is_nan() || share >= MOST_STRAYED)
+                self.relative_deviation(**cell, place)
+                    .is_none_or(|ratio| ratio.is_nan() || ratio >= MOST_STRAYED)
             })
             .map(|(cell, _)| *cell)
             .collect();

@@ -2,8 +2,8 @@
 
 use super::board_markers::{BoardMarkers, board_markers};
 use super::board_search::BoardSearch;
+use super::grown_marks::GrownMarks;
 use super::markers::{Marker, MarkerOptions, detect_markers};
-use super::near_marks::NearMarks;
 use super::{Board, BoardView};
 use crate::Result;
 use crate::homography::{fit_homography, homography_4point, transfer};
@@ -43,7 +43,7 @@ pub(super) fn find_marker_board(
     if 2 * agreed.len() < found.iter().filter(is_of_board).count() {
         return Ok(search);
     }
-    let mut near = NearMarks::new(image, board, &markers);
+    let mut near = GrownMarks::new(image, board, &markers);
     for mark in 0..board.num_marks() {
         if let Some(pixel_from_square) = beside(mark, board, &agreed, &markers) {
             near.add(mark, &pixel_from_square)?;
@@ -144,11 +144,13 @@ fn beside(
 
 fn is_enough(view: &BoardView, columns: usize) -> bool {
     let spans = |line: &dyn Fn(usize) -> usize| {
-        let mut lines = view.seen().map(|(mark, _)| line(mark));
+        let mut lines = view.visible().map(|(mark, _)| line(mark));
         let first = lines.next();
         lines.any(|line| Some(line) != first)
     };
-    view.num_seen() >= LEAST_MARKS && spans(&|mark| mark / columns) && spans(&|mark| mark % columns)
+    view.num_visible() >= LEAST_MARKS
+        && spans(&|mark| mark / columns)
+        && spans(&|mark| mark % columns)
 }
 
 #[cfg(test)]
@@ -202,7 +204,7 @@ mod tests {
         let problem = search.problem(board);
         let view = search.view().unwrap_or_else(|| panic!("{problem:?}"));
         let errors: Vec<f64> = view
-            .seen()
+            .visible()
             .map(|(mark, pixel)| (pixel - truth.pixels[mark].unwrap()).norm())
             .collect();
         let sum: f64 = errors.iter().map(|e| e * e).sum();
@@ -230,7 +232,7 @@ mod tests {
 
     /// Neighbors predict marks accurately even where the lens distorts most.
     #[test]
-    fn fisheyes_see_all_marks() {
+    fn fisheyes_observe_all_marks() {
         let camera = Camera {
             intrinsics: Intrinsics::new(290.0, 290.0, 319.5, 239.5).unwrap(),
             lens: Lens::from_coefficients(LensKind::Fisheye, &[-0.02, 0.005, 0.0, 0.0]).unwrap(),
@@ -243,10 +245,10 @@ mod tests {
             let truth = true_view(&board, &camera, &pose);
             let image = render_board(&board, &camera, &pose, 0.01, 0, &mut ()).unwrap();
             let view = find_board(&image, &board, &mut ()).unwrap().view().unwrap();
-            let missing = (truth.pixels.iter().zip(&view.pixels)).filter(|(truth, seen)| {
+            let missing = (truth.pixels.iter().zip(&view.pixels)).filter(|(truth, found)| {
                 let is_inside =
                     |p: &Point2<f64>| (10.0..630.0).contains(&p.x) && (10.0..470.0).contains(&p.y);
-                truth.as_ref().is_some_and(is_inside) && seen.is_none()
+                truth.as_ref().is_some_and(is_inside) && found.is_none()
             });
             assert_eq!(missing.count(), 0, "{:?}", board.pattern());
         }
@@ -257,12 +259,12 @@ mod tests {
         for (board, poses) in boards() {
             let last = board.mark(board.num_marks() - 1);
             let middle = Vector3::new(last.x / 2.0, last.y / 2.0, 0.0);
-            let turned = poses[0]
+            let rotated = poses[0]
                 * RigidTransform::translation(middle.x, middle.y, 0.0)
                 * RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 0.0, PI))
                 * RigidTransform::translation(-middle.x, -middle.y, 0.0);
-            let image = render_board(&board, &camera(), &turned, 0.01, 1, &mut ()).unwrap();
-            let (count, largest, _) = search(&image, &board, &turned);
+            let image = render_board(&board, &camera(), &rotated, 0.01, 1, &mut ()).unwrap();
+            let (count, largest, _) = search(&image, &board, &rotated);
             assert!(
                 count == board.num_marks() && largest < 0.2,
                 "{count} {largest}"
@@ -362,7 +364,7 @@ mod tests {
     }
 
     #[test]
-    fn another_board_is_told_by_its_markers() {
+    fn another_board_is_recognized_by_its_markers() {
         let (board, poses) = &boards()[0];
         let image = render_board(board, &camera(), &poses[0], 0.01, 4, &mut ()).unwrap();
         let wider = Board::new(CHARUCO, 8, 5, 0.03).unwrap();

@@ -18,7 +18,7 @@ pub(super) const SHARED: usize = 6 + 2 * OF_CAMERA;
 
 /// A mark of the board with its pixel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct SeenMark {
+pub(super) struct DetectedMark {
     pub(super) view: usize,
     pub(super) mark: usize,
     /// 1 for the second camera of a rig, else 0.
@@ -64,7 +64,7 @@ pub(super) fn lens_of(kind: LensKind, numbers: &[f64; OF_CAMERA]) -> Lens {
 pub(super) struct Problem {
     /// Marks in the plane of the board, meters.
     pub(super) marks: Vec<Point3<f64>>,
-    pub(super) observations: Vec<SeenMark>,
+    pub(super) observations: Vec<DetectedMark>,
     pub(super) num_views: usize,
     pub(super) kinds: [LensKind; 2],
     /// Whether each parameter of the rig's motion and of the two cameras is held.
@@ -75,7 +75,7 @@ pub(super) struct Problem {
 impl Problem {
     pub(super) fn new(
         marks: Vec<Point3<f64>>,
-        observations: Vec<SeenMark>,
+        observations: Vec<DetectedMark>,
         num_views: usize,
         kinds: [LensKind; 2],
         held: [bool; SHARED],
@@ -106,27 +106,27 @@ impl Problem {
 
     /// Returns the mark in the frame of the observing camera, with the intermediate results of both
     /// rotations.
-    fn place(&self, state: &State, o: &SeenMark) -> Place {
+    fn place(&self, state: &State, o: &DetectedMark) -> Place {
         let pose = &state.views[o.view];
-        let turned = pose.rotated(&self.marks[o.mark]);
-        let in_first = turned + pose.translation;
+        let rotated = pose.rotated(&self.marks[o.mark]);
+        let in_first = rotated + pose.translation;
         if o.eye == 0 {
             return Place {
-                turned,
+                rotated,
                 rotated_by_rig: in_first,
                 in_cam: in_first,
             };
         }
         let rotated_by_rig = state.rig.rotated(&Point3::from(in_first));
         Place {
-            turned,
+            rotated,
             rotated_by_rig,
             in_cam: rotated_by_rig + state.rig.translation,
         }
     }
 
     /// Returns the RMS reprojection error of the marks that count.
-    pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&SeenMark) -> bool) -> f64 {
+    pub(super) fn rms_px(&self, state: &State, counts: impl Fn(&DetectedMark) -> bool) -> f64 {
         let (mut sum, mut count) = (0.0, 0);
         for (index, o) in self.observations.iter().enumerate() {
             if counts(o) {
@@ -140,7 +140,7 @@ impl Problem {
 }
 
 struct Place {
-    turned: Vector3<f64>,
+    rotated: Vector3<f64>,
     rotated_by_rig: Vector3<f64>,
     in_cam: Vector3<f64>,
 }
@@ -173,12 +173,12 @@ impl BundleProblem<6, SHARED> for Problem {
         let numbers = &state.cameras[o.eye];
         let lens = lens_of(self.kinds[o.eye], numbers);
         // Points outside the lens's domain have no residual, and the solver does not step there.
-        let Some(seen) = lens.project(&self.place(state, o).in_cam) else {
+        let Some(projected) = lens.project(&self.place(state, o).in_cam) else {
             return [f64::NAN; 2];
         };
         [
-            numbers[0] * seen.x + numbers[2] - o.pixel.x,
-            numbers[1] * seen.y + numbers[3] - o.pixel.y,
+            numbers[0] * projected.x + numbers[2] - o.pixel.x,
+            numbers[1] * projected.y + numbers[3] - o.pixel.y,
         ]
     }
 
@@ -194,12 +194,12 @@ impl BundleProblem<6, SHARED> for Problem {
             point: [[0.0; 3]; 2],
         };
         let (by_point, by_lens) = lens.derivatives(&place.in_cam);
-        let seen = lens.project(&place.in_cam).unwrap_or_default();
+        let projected = lens.project(&place.in_cam).unwrap_or_default();
         let first = 6 + o.eye * OF_CAMERA;
         for row in 0..2 {
             let focal = numbers[row];
             let shared = &mut terms.shared[row];
-            shared[first + row] = seen[row];
+            shared[first + row] = projected[row];
             shared[first + 2 + row] = 1.0;
             for (k, slope) in by_lens[row].iter().enumerate() {
                 shared[first + 4 + k] = focal * slope;
@@ -210,7 +210,7 @@ impl BundleProblem<6, SHARED> for Problem {
                 shared[..6].copy_from_slice(&by_rig);
                 by_p = Vector3::from(by_first);
             }
-            terms.camera[row] = state.views[o.view].derivatives(&place.turned, &by_p).0;
+            terms.camera[row] = state.views[o.view].derivatives(&place.rotated, &by_p).0;
         }
         terms
     }
@@ -276,7 +276,7 @@ mod tests {
                 .map(|i| Point3::new(f64::from(i % 3) * 0.1, f64::from(i / 3) * 0.1, 0.0))
                 .collect();
             let observations = (0..12)
-                .map(|i| SeenMark {
+                .map(|i| DetectedMark {
                     view: 0,
                     mark: i / 2,
                     eye: i % 2,

@@ -116,29 +116,29 @@ pub fn calibrate_rig(
         ]);
     }
     // For each pair, the motion for each rotation of the right board.
-    let turns = board_symmetries(board);
+    let symmetries = board_symmetries(board);
     let motions: Vec<Vec<RigidTransform>> = poses
         .iter()
         .map(|[l, r]| {
-            let motion = |board_from_turned| r * board_from_turned * l.inverse();
-            turns
+            let motion = |board_from_rotated| r * board_from_rotated * l.inverse();
+            symmetries
                 .iter()
-                .map(|turn| motion(turn.board_from_turned))
+                .map(|symmetry| motion(symmetry.board_from_rotated))
                 .collect()
         })
         .collect();
-    let (start, chosen) = agreed(&motions);
+    let (start, chosen) = find_common_motion(&motions);
     let in_left: Vec<&BoardView> = pairs.iter().map(|[left, _]| *left).collect();
     let in_right = pairs.iter().zip(&chosen);
     let in_right: Vec<BoardView> = in_right
-        .map(|([_, right], &n)| turns[n].view(right))
+        .map(|([_, right], &n)| symmetries[n].view(right))
         .collect();
-    let mut seen = observations(&in_left, 0);
-    seen.extend(observations(&in_right.iter().collect::<Vec<_>>(), 1));
+    let mut observed = observations(&in_left, 0);
+    observed.extend(observations(&in_right.iter().collect::<Vec<_>>(), 1));
     let mut held = [true; SHARED];
     held[..6].fill(false);
     let kinds = cameras.each_ref().map(|camera| camera.lens.kind());
-    let problem = Problem::new(marks(board), seen, pairs.len(), kinds, held);
+    let problem = Problem::new(marks(board), observed, pairs.len(), kinds, held);
     let mut state = State {
         views: poses.iter().map(|[l, _]| pose_state(l)).collect(),
         rig: pose_state(&start),
@@ -175,7 +175,7 @@ pub fn calibrate_rig(
 /// Returns the motion on which the pairs agree best, and the rotation of each pair.
 ///
 /// * `motions`: motions of each pair for each rotation, the identity first
-fn agreed(motions: &[Vec<RigidTransform>]) -> (RigidTransform, Vec<usize>) {
+fn find_common_motion(motions: &[Vec<RigidTransform>]) -> (RigidTransform, Vec<usize>) {
     let off = |a: &RigidTransform, b: &RigidTransform| {
         a.rotation.angle_to(&b.rotation)
             + (a.translation.vector - b.translation.vector).norm()
@@ -185,22 +185,22 @@ fn agreed(motions: &[Vec<RigidTransform>]) -> (RigidTransform, Vec<usize>) {
         let offs = of_pair.iter().map(|b| off(a, b)).enumerate();
         offs.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
     };
-    let best = |num_turns: usize| {
-        let allowed = || motions.iter().map(|of_pair| &of_pair[..num_turns]);
+    let best = |num_rotations: usize| {
+        let allowed = || motions.iter().map(|of_pair| &of_pair[..num_rotations]);
         let disagreement = |a| allowed().map(|of_pair| nearest(a, of_pair).1).sum::<f64>();
         let all = allowed().flatten().map(|a| (disagreement(a), *a));
         let found = all.min_by(|a, b| a.0.total_cmp(&b.0));
         found.unwrap_or((0.0, RigidTransform::identity()))
     };
-    let num_turns = motions.first().map_or(1, Vec::len);
-    let (as_found, turned) = (best(1), best(num_turns));
-    let (start, num_turns) = match turned.0 < CLEARLY_LESS * as_found.0 {
-        true => (turned.1, num_turns),
+    let num_rotations = motions.first().map_or(1, Vec::len);
+    let (as_found, rotated) = (best(1), best(num_rotations));
+    let (start, num_rotations) = match rotated.0 < CLEARLY_LESS * as_found.0 {
+        true => (rotated.1, num_rotations),
         false => (as_found.1, 1),
     };
     let chosen = motions
         .iter()
-        .map(|of_pair| nearest(&start, &of_pair[..num_turns]).0);
+        .map(|of_pair| nearest(&start, &of_pair[..num_rotations]).0);
     (start, chosen.collect())
 }
 
@@ -220,7 +220,7 @@ mod tests {
             RigidTransform::new(Vector3::new(0.12, 0.01, 0.0), Vector3::new(0.02, 0.0, 3.1));
         for (columns, rows) in [(7, 5), (6, 6)] {
             let board = Board::new(Pattern::Chessboard, columns, rows, 0.025).unwrap();
-            let turns = board_symmetries(&board);
+            let symmetries = board_symmetries(&board);
             let poses = poses(&board, 6, 15.0, 2);
             let left: Vec<_> = (poses.iter())
                 .map(|pose| Some(true_view(&board, &camera, pose)))
@@ -228,7 +228,7 @@ mod tests {
             // Every view is numbered from its own corner.
             let right = poses.iter().enumerate().map(|(n, pose)| {
                 let view = true_view(&board, &camera, &(truth * pose));
-                Some(turns[n % turns.len()].view(&view))
+                Some(symmetries[n % symmetries.len()].view(&view))
             });
             let right: Vec<_> = right.collect();
             let found = calibrate_rig(&board, &[camera; 2], &left, &right, &mut ()).unwrap();
@@ -255,10 +255,14 @@ mod tests {
             Vector3::new(-0.1, 0.02, 0.015),
             Vector3::new(0.03, -0.1, 0.4),
         );
-        let see = |camera: &Camera, pose: RigidTransform| Some(true_view(&board, camera, &pose));
+        let observe =
+            |camera: &Camera, pose: RigidTransform| Some(true_view(&board, camera, &pose));
         let poses = poses(&board, 5, 15.0, 2);
-        let mut left: Vec<_> = poses.iter().map(|p| see(&cameras[0], *p)).collect();
-        let mut right: Vec<_> = poses.iter().map(|p| see(&cameras[1], truth * p)).collect();
+        let mut left: Vec<_> = poses.iter().map(|p| observe(&cameras[0], *p)).collect();
+        let mut right: Vec<_> = poses
+            .iter()
+            .map(|p| observe(&cameras[1], truth * p))
+            .collect();
         left[1] = None;
         // Part of the board is hidden from the right camera.
         right[3].as_mut().unwrap().pixels[10..30].fill(None);

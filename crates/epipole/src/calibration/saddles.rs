@@ -69,8 +69,8 @@ impl SaddleImage {
         let peaks = non_maximum_suppression(&response, 2, threshold, part)?;
         let mut saddles: Vec<Saddle> = Vec::new();
         for (k, peak) in peaks.iter().enumerate() {
-            let share = 0.4 + 0.6 * k as f32 / peaks.len() as f32;
-            report(monitor, Stage::FeatureDetection, share)?;
+            let fraction = 0.4 + 0.6 * k as f32 / peaks.len() as f32;
+            report(monitor, Stage::FeatureDetection, fraction)?;
             if let Some(saddle) = self.examine(&peak.point())
                 && !saddles
                     .iter()

@@ -20,13 +20,13 @@ pub(super) fn starts(
 ) -> Result<Vec<Intrinsics>> {
     let longer = f64::from(width.max(height));
     if kind == LensKind::Fisheye {
-        let start = |share: f64| Intrinsics::centered(share * longer, width, height);
+        let start = |ratio: f64| Intrinsics::centered(ratio * longer, width, height);
         return FISHEYE_FOCALS.into_iter().map(start).collect();
     }
     let mut homographies = Vec::new();
     for view in views {
         let (on_board, pixels): (Vec<_>, Vec<_>) = view
-            .seen()
+            .visible()
             .map(|(mark, pixel)| (board.mark(mark), pixel))
             .unzip();
         homographies.push(fit_homography(&on_board, &pixels)?);
@@ -69,7 +69,7 @@ pub(super) fn board_pose(
     camera: &Camera,
 ) -> Result<RigidTransform> {
     let (mut on_board, mut directions) = (Vec::new(), Vec::new());
-    for (mark, pixel) in view.seen() {
+    for (mark, pixel) in view.visible() {
         // Beyond about 80° a plane cannot represent directions.
         if let Ok(ray) = camera.ray(&pixel)
             && ray.z > 0.17 * ray.norm()

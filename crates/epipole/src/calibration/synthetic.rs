@@ -38,28 +38,28 @@ impl Sheet {
 
     /// Returns the mean gray value of a part.
     ///
-    /// * `seen`: footprint of a pixel, in squares
-    fn gray(&self, seen: &Footprint) -> f64 {
-        let whole = seen.area();
-        let [low, high] = seen.bounds();
+    /// * `footprint`: footprint of a pixel, in squares
+    fn gray(&self, footprint: &Footprint) -> f64 {
+        let whole = footprint.area();
+        let [low, high] = footprint.bounds();
         let is_aside = |i: usize| low[i] > self.corner[i] || high[i] < -MARGIN;
         if !(whole > 0.0 && whole.is_finite()) || is_aside(0) || is_aside(1) {
             return TABLE;
         }
-        let sheet = seen.area_in_rectangle(Point2::new(-MARGIN, -MARGIN), self.corner);
+        let sheet = footprint.area_in_rectangle(Point2::new(-MARGIN, -MARGIN), self.corner);
         let is_near =
             |a: &Point2<f64>, b: &Point2<f64>| (0..2).all(|i| a[i] <= high[i] && b[i] >= low[i]);
         let mut black = 0.0;
         for [a, b] in &self.drawing.rectangles {
             if is_near(a, b) {
-                black += seen.area_in_rectangle(*a, *b);
+                black += footprint.area_in_rectangle(*a, *b);
             }
         }
         let radius = self.drawing.disk_radius;
         let reach = Vector2::new(radius, radius);
         for center in &self.drawing.disks {
             if is_near(&(center - reach), &(center + reach)) {
-                black += seen.area_in_disk(*center, radius);
+                black += footprint.area_in_disk(*center, radius);
             }
         }
         TABLE + ((WHITE - TABLE) * sheet + (BLACK - WHITE) * black) / whole
@@ -93,8 +93,8 @@ impl Sheet {
 /// let pose = RigidTransform::translation(-0.04, -0.03, 0.2);
 /// let image = render_board(&board, &camera, &pose, 0.0, 0, &mut ())?;
 /// let found = find_board(&image, &board, &mut ())?.view().expect("a board");
-/// let seen = found.pixels[7].expect("a corner");
-/// assert!((seen - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
+/// let pixel = found.pixels[7].expect("a corner");
+/// assert!((pixel - nalgebra::Point2::new(79.5, 49.5)).norm() < 0.1);
 /// # Ok(()) }
 /// ```
 pub fn render_board(
@@ -166,12 +166,12 @@ pub(crate) fn poses(board: &Board, count: usize, distance: f64, seed: u64) -> Ve
     let middle = Vector3::new(last.x / 2.0, last.y / 2.0, 0.0);
     (0..count)
         .map(|_| {
-            let turn = Vector3::new(
+            let rotation_vector = Vector3::new(
                 random.uniform(-0.55, 0.55),
                 random.uniform(-0.55, 0.55),
                 random.uniform(-0.4, 0.4),
             );
-            let rotation = nalgebra::UnitQuaternion::from_scaled_axis(turn);
+            let rotation = nalgebra::UnitQuaternion::from_scaled_axis(rotation_vector);
             let far = distance * board.square_m();
             let at = Vector3::new(
                 random.uniform(-0.12, 0.12) * far,
@@ -204,9 +204,9 @@ mod tests {
 
     /// The board's mark 1 on the optical axis, offset by `offset_px`, rotated about the board's
     /// normal and tilted.
-    fn pose(board: &Board, turn_rad: f64, tip_rad: f64, offset_px: f64) -> RigidTransform {
+    fn pose(board: &Board, yaw_rad: f64, tip_rad: f64, offset_px: f64) -> RigidTransform {
         let rotation = UnitQuaternion::from_euler_angles(tip_rad, 0.3 * tip_rad, 0.0)
-            * UnitQuaternion::from_euler_angles(0.0, 0.0, turn_rad);
+            * UnitQuaternion::from_euler_angles(0.0, 0.0, yaw_rad);
         let mark = board.mark(4);
         let at = Vector3::new(offset_px * 0.25 / 300.0, 0.0, 0.25);
         let middle = rotation * Vector3::new(mark.x, mark.y, 0.0);

@@ -105,8 +105,8 @@ impl Undistortion {
         let valid = covered.inner.scaled(focal_px, &center);
         let source = |u, v| {
             let ray: Vector3<f64> = intrinsics.ray(&Point2::new(f64::from(u), f64::from(v)));
-            let is_seen = camera.lens.is_seen(&ray);
-            is_seen.then(|| camera.project(&ray.into()))?.ok()
+            let is_visible = camera.lens.is_visible(&ray);
+            is_visible.then(|| camera.project(&ray.into()))?.ok()
         };
         Ok(Self {
             intrinsics,

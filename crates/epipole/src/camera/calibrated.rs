@@ -127,10 +127,10 @@ impl Camera {
     /// let camera = Camera { lens: Lens::Fisheye(Fisheye::default()), ..Camera::pinhole(intrinsics, 401, 401) };
     /// // 90° to the right is π/2 focal lengths off the middle.
     /// let pixel = Point2::new(200.0 + 50.0 * core::f64::consts::PI, 200.0);
-    /// let seen = camera.observe(&pixel)?;
-    /// assert!((seen.ray() - Vector3::x()).norm() < 1e-12);
+    /// let observation = camera.observe(&pixel)?;
+    /// assert!((observation.ray() - Vector3::x()).norm() < 1e-12);
     /// // A point 0.01 rad further back appears a pixel further out.
-    /// let off_px = seen.offset_px(&Vector3::new(1.0, 0.0, -0.01)).unwrap();
+    /// let off_px = observation.offset_px(&Vector3::new(1.0, 0.0, -0.01)).unwrap();
     /// assert!((off_px.x - 1.0).abs() < 1e-9);
     /// # Ok(()) }
     /// ```

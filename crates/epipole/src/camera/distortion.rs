@@ -123,14 +123,14 @@ impl Distortion {
     /// assert!(barrel.undistort(&Point2::new(0.9, 0.0)).is_err());
     /// # Ok(()) }
     /// ```
-    pub fn undistort(&self, seen: &Point2<f64>) -> Result<Point2<f64>> {
-        if !(seen.x.is_finite() && seen.y.is_finite()) {
+    pub fn undistort(&self, distorted: &Point2<f64>) -> Result<Point2<f64>> {
+        if !(distorted.x.is_finite() && distorted.y.is_finite()) {
             return Err(Error::NotFinite {
                 what: "the distorted place",
             });
         }
         if self.is_none() {
-            return Ok(*seen);
+            return Ok(*distorted);
         }
         let unseen = Error::Degenerate {
             what: "the ray of a distorted pixel",
@@ -139,16 +139,16 @@ impl Distortion {
         let fold_sq = self.fold_sq();
         let answers = |(ray, error): &(Point2<f64>, f64)| {
             // Rounding may stop it a little early, but never far from the solution.
-            *error <= 1e3 * RESIDUAL * (1.0 + seen.coords.norm())
+            *error <= 1e3 * RESIDUAL * (1.0 + distorted.coords.norm())
                 && ray.coords.norm_squared() < fold_sq
         };
         // Near the fold the position itself is the best initial value.
-        let quick = self.descend(seen, *seen, f64::INFINITY);
+        let quick = self.descend(distorted, *distorted, f64::INFINITY);
         if answers(&quick) {
             return Ok(quick.0);
         }
         // Newton's method may have jumped over the fold.
-        let inside = self.descend(seen, self.radial_start(seen, fold_sq), fold_sq);
+        let inside = self.descend(distorted, self.radial_start(distorted, fold_sq), fold_sq);
         if answers(&inside) {
             Ok(inside.0)
         } else {
@@ -173,20 +173,25 @@ impl Distortion {
     /// assert!((ray.x - (5.0_f64 / 3.0).sqrt()).abs() < 1e-6 && ray.y == 0.0);
     /// # Ok(()) }
     /// ```
-    pub fn undistort_nearest(&self, seen: &Point2<f64>) -> Result<Point2<f64>> {
-        match self.undistort(seen) {
+    pub fn undistort_nearest(&self, distorted: &Point2<f64>) -> Result<Point2<f64>> {
+        match self.undistort(distorted) {
             Err(Error::Degenerate { .. }) => {
                 let fold_sq = self.fold_sq();
-                let start = self.radial_start(seen, fold_sq);
-                Ok(self.descend(seen, start, fold_sq).0)
+                let start = self.radial_start(distorted, fold_sq);
+                Ok(self.descend(distorted, start, fold_sq).0)
             }
             answer => answer,
         }
     }
 
-    fn descend(&self, seen: &Point2<f64>, start: Point2<f64>, fold_sq: f64) -> (Point2<f64>, f64) {
+    fn descend(
+        &self,
+        distorted: &Point2<f64>,
+        start: Point2<f64>,
+        fold_sq: f64,
+    ) -> (Point2<f64>, f64) {
         descend(
-            seen,
+            distorted,
             start,
             fold_sq,
             |ray| self.distort(ray),
@@ -194,8 +199,8 @@ impl Distortion {
         )
     }
 
-    fn radial_start(&self, seen: &Point2<f64>, fold_sq: f64) -> Point2<f64> {
-        radial_start(seen, fold_sq, |r| {
+    fn radial_start(&self, distorted: &Point2<f64>, fold_sq: f64) -> Point2<f64> {
+        radial_start(distorted, fold_sq, |r| {
             let s = r * r;
             r * (1.0 + s * (self.k1 + s * (self.k2 + s * self.k3)))
         })
@@ -215,7 +220,7 @@ impl Distortion {
     }
 
     /// Returns whether the ray lies inside the fold: the radial part grows all the way to it.
-    pub(crate) fn is_seen(&self, ray: &Point2<f64>) -> bool {
+    pub(crate) fn is_visible(&self, ray: &Point2<f64>) -> bool {
         ray.coords.norm_squared() < self.fold_sq()
     }
 }
@@ -251,8 +256,8 @@ mod tests {
     /// Numbers from OpenCV 5.0's `projectPoints` with K = I.
     #[test]
     fn agrees_with_another_implementation() {
-        for (distortion, ray, seen) in reference_points() {
-            assert!((distortion.distort(&ray) - seen).norm() < 1e-14);
+        for (distortion, ray, distorted) in reference_points() {
+            assert!((distortion.distort(&ray) - distorted).norm() < 1e-14);
         }
     }
 
@@ -331,14 +336,14 @@ mod tests {
                     random.uniform(0.0, core::f64::consts::TAU),
                 );
                 let ray = Point2::new(radius * libm::cos(angle), radius * libm::sin(angle));
-                let seen = lens.distort(&ray);
-                let back = lens.undistort(&seen).unwrap();
+                let distorted = lens.distort(&ray);
+                let back = lens.undistort(&distorted).unwrap();
                 assert!(
                     (back - ray).norm() < 1e-7,
                     "{lens:?}: {ray} came back as {back}"
                 );
-                assert_eq!(lens.undistort_nearest(&seen).unwrap(), back);
-                let anywhere = seen * random.uniform(0.5, 4.0);
+                assert_eq!(lens.undistort_nearest(&distorted).unwrap(), back);
+                let anywhere = distorted * random.uniform(0.5, 4.0);
                 match lens.undistort(&anywhere) {
                     Ok(ray) => {
                         assert!(ray.coords.norm() < fold);
@@ -357,7 +362,7 @@ mod tests {
         let narrow =
             Distortion::from_coefficients([-3.98 / 3.0, 3.96 / 5.0, 0.0, 0.0, 0.0]).unwrap();
         let beyond = Point2::new(3.0, 0.0);
-        assert!(!narrow.is_seen(&beyond));
+        assert!(!narrow.is_visible(&beyond));
         assert!(narrow.undistort(&narrow.distort(&beyond)).is_err());
     }
 }

@@ -71,24 +71,24 @@ impl Division {
     /// assert_eq!(ray, Point2::new(0.0, 4.0));
     /// # Ok(()) }
     /// ```
-    pub fn undistort(&self, seen: &Point2<f64>) -> Result<Point2<f64>> {
-        if !(seen.x.is_finite() && seen.y.is_finite()) {
+    pub fn undistort(&self, distorted: &Point2<f64>) -> Result<Point2<f64>> {
+        if !(distorted.x.is_finite() && distorted.y.is_finite()) {
             return Err(Error::NotFinite {
                 what: "the distorted place",
             });
         }
-        let bent = self.k * seen.coords.norm_squared();
+        let bent = self.k * distorted.coords.norm_squared();
         if bent.abs() >= 1.0 {
             return Err(Error::Degenerate {
                 what: "the ray of a distorted pixel",
                 why: "the lens model bends no ray to it",
             });
         }
-        Ok(seen / (1.0 + bent))
+        Ok(distorted / (1.0 + bent))
     }
 
     /// Returns whether the ray through (x, y, 1) is seen.
-    pub(crate) fn is_seen(&self, ray: &Point2<f64>) -> bool {
+    pub(crate) fn is_visible(&self, ray: &Point2<f64>) -> bool {
         self.root(ray) > 0.0
     }
 }
@@ -105,21 +105,22 @@ mod tests {
             let lens = Division { k };
             for _ in 0..200 {
                 let ray = Point2::new(random.uniform(-1.0, 1.0), random.uniform(-0.4, 0.4));
-                assert!(lens.is_seen(&ray));
-                let seen = lens.distort(&ray);
+                assert!(lens.is_visible(&ray));
+                let distorted = lens.distort(&ray);
                 assert!(
-                    (lens.undistort(&seen).unwrap() - ray).norm() < 1e-12,
+                    (lens.undistort(&distorted).unwrap() - ray).norm() < 1e-12,
                     "{k} {ray}"
                 );
                 // Fitzgibbon's formula, verbatim.
-                let r_sq = seen.coords.norm_squared();
-                assert!((seen / (1.0 + k * r_sq) - ray).norm() < 1e-12);
+                let r_sq = distorted.coords.norm_squared();
+                assert!((distorted / (1.0 + k * r_sq) - ray).norm() < 1e-12);
             }
         }
         // A pincushion folds where 4 k r² = 1.
         let cushion = Division { k: 0.25 };
         assert!(
-            cushion.is_seen(&Point2::new(0.99, 0.0)) && !cushion.is_seen(&Point2::new(1.0, 0.0))
+            cushion.is_visible(&Point2::new(0.99, 0.0))
+                && !cushion.is_visible(&Point2::new(1.0, 0.0))
         );
         for k in [-0.25, 0.25] {
             let lens = Division { k };

@@ -41,8 +41,8 @@ impl Fisheye {
     /// use epipole::camera::Fisheye;
     /// use nalgebra::Vector3;
     /// // 45° to the right.
-    /// let seen = Fisheye::default().project(&Vector3::new(2.0, 0.0, 2.0)).unwrap();
-    /// assert!((seen.x - core::f64::consts::FRAC_PI_4).abs() < 1e-15 && seen.y == 0.0);
+    /// let distorted = Fisheye::default().project(&Vector3::new(2.0, 0.0, 2.0)).unwrap();
+    /// assert!((distorted.x - core::f64::consts::FRAC_PI_4).abs() < 1e-15 && distorted.y == 0.0);
     /// ```
     pub fn project(&self, ray: &Vector3<f64>) -> Option<Point2<f64>> {
         let across = libm::hypot(ray.x, ray.y);
@@ -50,8 +50,8 @@ impl Fisheye {
         if across == 0.0 {
             return (ray.z > 0.0).then(Point2::origin);
         }
-        let seen = Point2::from(ray.xy() * (self.radius(theta).0 / across));
-        (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
+        let distorted = Point2::from(ray.xy() * (self.radius(theta).0 / across));
+        (distorted.x.is_finite() && distorted.y.is_finite()).then_some(distorted)
     }
 
     /// Returns the derivatives of [`project`](Self::project) by the ray and by the four
@@ -100,13 +100,13 @@ impl Fisheye {
     /// assert!((ray - nalgebra::Vector3::x()).norm() < 1e-12);
     /// # Ok(()) }
     /// ```
-    pub fn ray(&self, seen: &Point2<f64>) -> Result<Vector3<f64>> {
-        if !(seen.x.is_finite() && seen.y.is_finite()) {
+    pub fn ray(&self, distorted: &Point2<f64>) -> Result<Vector3<f64>> {
+        if !(distorted.x.is_finite() && distorted.y.is_finite()) {
             return Err(Error::NotFinite {
                 what: "the distorted place",
             });
         }
-        let wanted = seen.coords.norm();
+        let wanted = distorted.coords.norm();
         if wanted == 0.0 {
             return Ok(Vector3::z());
         }
@@ -127,12 +127,12 @@ impl Fisheye {
             }
         }
         let (sine, cosine) = libm::sincos(high);
-        let across: Vector2<f64> = seen.coords * (sine / wanted);
+        let across: Vector2<f64> = distorted.coords * (sine / wanted);
         Ok(Vector3::new(across.x, across.y, cosine))
     }
 
     /// Returns whether the ray is inside the angle at which the radius stops growing.
-    pub(super) fn sees(&self, ray: &Vector3<f64>) -> bool {
+    pub(super) fn is_visible(&self, ray: &Vector3<f64>) -> bool {
         let theta = libm::atan2(libm::hypot(ray.x, ray.y), ray.z);
         theta < self.fold().min(core::f64::consts::PI)
     }
@@ -165,8 +165,8 @@ mod tests {
     /// From OpenCV 5.0's `fisheye.projectPoints` with K = I.
     #[test]
     fn agrees_with_another_implementation() {
-        for (ray, seen) in REFERENCE {
-            let off = lens().project(&Vector3::from(ray)).unwrap() - Point2::from(seen);
+        for (ray, distorted) in REFERENCE {
+            let off = lens().project(&Vector3::from(ray)).unwrap() - Point2::from(distorted);
             assert!(off.norm() < 1e-14, "{off}");
         }
     }
@@ -181,10 +181,10 @@ mod tests {
         let mut random = Random::new(1);
         for _ in 0..1000 {
             let theta = random.uniform(0.0, 1.9);
-            let turn = random.uniform(0.0, 6.3);
+            let angle_rad = random.uniform(0.0, 6.3);
             let ray = Vector3::new(
-                libm::sin(theta) * libm::cos(turn),
-                libm::sin(theta) * libm::sin(turn),
+                libm::sin(theta) * libm::cos(angle_rad),
+                libm::sin(theta) * libm::sin(angle_rad),
                 libm::cos(theta),
             );
             let back = lens().ray(&lens().project(&(ray * 3.0)).unwrap()).unwrap();

@@ -133,8 +133,8 @@ impl Intrinsics {
             ("the shorter side of the old image", least, old, old >= 1.0),
             ("the shorter side of the new image", least, new, new >= 1.0),
         ])?;
-        let share = |to: u32, from: u32| f64::from(to) / f64::from(from);
-        let (across, down) = (share(to.0, from.0), share(to.1, from.1));
+        let ratio = |to: u32, from: u32| f64::from(to) / f64::from(from);
+        let (across, down) = (ratio(to.0, from.0), ratio(to.1, from.1));
         Self::new(
             self.fu_px * across,
             self.fv_px * down,
@@ -151,11 +151,11 @@ impl Intrinsics {
     /// # fn main() -> Result<(), epipole::Error> {
     /// use epipole::camera::Intrinsics;
     /// // The pixel (u, v) of a 640 × 480 image moves to (479 − v, u).
-    /// let upright = Intrinsics::new(500.0, 501.0, 320.0, 230.0)?.turned(1, (640, 480));
+    /// let upright = Intrinsics::new(500.0, 501.0, 320.0, 230.0)?.rotated(1, (640, 480));
     /// assert_eq!(upright, Intrinsics::new(501.0, 500.0, 249.0, 320.0)?);
     /// # Ok(()) }
     /// ```
-    pub fn turned(&self, quarters: u8, (width, height): (u32, u32)) -> Self {
+    pub fn rotated(&self, quarters: u8, (width, height): (u32, u32)) -> Self {
         let (right, bottom) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
         let (mut fu_px, mut fv_px) = (self.fu_px, self.fv_px);
         if !quarters.is_multiple_of(2) {

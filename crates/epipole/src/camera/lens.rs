@@ -151,13 +151,13 @@ impl Lens {
     /// ```
     pub fn project(&self, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
         let flat = || (x_in_cam.z > 0.0).then(|| Point2::from(x_in_cam.xy() / x_in_cam.z));
-        let seen = match self {
+        let distorted = match self {
             Self::Brown(d) => d.distort(&flat()?),
             Self::Rational(r) => r.distort(&flat()?),
             Self::Fisheye(f) => f.project(x_in_cam)?,
             Self::Division(d) => d.distort(&flat()?),
         };
-        (seen.x.is_finite() && seen.y.is_finite()).then_some(seen)
+        (distorted.x.is_finite() && distorted.y.is_finite()).then_some(distorted)
     }
 
     /// Projects a point of the camera frame, in units of the focal length; not finite if there is
@@ -184,9 +184,9 @@ impl Lens {
     /// Returns the pixel of a point of the camera frame for these intrinsics; `None` as for
     /// [`project`](Self::project).
     pub(crate) fn pixel(&self, k: &Intrinsics, x_in_cam: &Vector3<f64>) -> Option<Point2<f64>> {
-        let seen = self.project(x_in_cam)?;
+        let bent = self.project(x_in_cam)?;
         let center = k.principal_point();
-        let pixel = Point2::new(k.fu_px() * seen.x + center.x, k.fv_px() * seen.y + center.y);
+        let pixel = Point2::new(k.fu_px() * bent.x + center.x, k.fv_px() * bent.y + center.y);
         (pixel.x.is_finite() && pixel.y.is_finite()).then_some(pixel)
     }
 
@@ -194,43 +194,43 @@ impl Lens {
     ///
     /// # Errors
     /// As [`Distortion::undistort`], [`RationalDistortion::undistort`] and [`Fisheye::ray`].
-    pub fn ray(&self, seen: &Point2<f64>) -> Result<Vector3<f64>> {
+    pub fn ray(&self, distorted: &Point2<f64>) -> Result<Vector3<f64>> {
         let at_one = |ray: Point2<f64>| Vector3::new(ray.x, ray.y, 1.0);
         match self {
-            Self::Brown(d) => d.undistort(seen).map(at_one),
-            Self::Rational(r) => r.undistort(seen).map(at_one),
-            Self::Fisheye(f) => f.ray(seen),
-            Self::Division(d) => d.undistort(seen).map(at_one),
+            Self::Brown(d) => d.undistort(distorted).map(at_one),
+            Self::Rational(r) => r.undistort(distorted).map(at_one),
+            Self::Fisheye(f) => f.ray(distorted),
+            Self::Division(d) => d.undistort(distorted).map(at_one),
         }
     }
 
     /// Returns the lens after rotating its image clockwise by `quarters` times 90°, as
-    /// [`Intrinsics::turned`]: only tangential terms depend on direction.
+    /// [`Intrinsics::rotated`]: only tangential terms depend on direction.
     ///
-    /// [`Intrinsics::turned`]: super::Intrinsics::turned
+    /// [`Intrinsics::rotated`]: super::Intrinsics::rotated
     ///
     /// ```
     /// use epipole::camera::{Distortion, Lens};
     /// use nalgebra::{Point2, Vector3};
     /// let lens = Lens::Brown(Distortion { k1: -0.1, p1: 0.01, p2: 0.02, ..Distortion::NONE });
     /// // The right side of the image is then at the bottom.
-    /// let seen = lens.project(&Vector3::new(0.3, 0.1, 1.0)).unwrap();
-    /// let turned = lens.turned(1).project(&Vector3::new(-0.1, 0.3, 1.0)).unwrap();
-    /// assert!((turned - Point2::new(-seen.y, seen.x)).norm() < 1e-15);
+    /// let distorted = lens.project(&Vector3::new(0.3, 0.1, 1.0)).unwrap();
+    /// let rotated = lens.rotated(1).project(&Vector3::new(-0.1, 0.3, 1.0)).unwrap();
+    /// assert!((rotated - Point2::new(-distorted.y, distorted.x)).norm() < 1e-15);
     /// ```
-    pub fn turned(&self, quarters: u8) -> Self {
-        let turn = |d: &Distortion| {
-            let mut turned = *d;
+    pub fn rotated(&self, quarters: u8) -> Self {
+        let rotate_quarter = |d: &Distortion| {
+            let mut rotated = *d;
             for _ in 0..quarters % 4 {
                 // (p2, p1) is a direction of the image.
-                (turned.p2, turned.p1) = (-turned.p1, turned.p2);
+                (rotated.p2, rotated.p1) = (-rotated.p1, rotated.p2);
             }
-            turned
+            rotated
         };
         match self {
-            Self::Brown(d) => Self::Brown(turn(d)),
+            Self::Brown(d) => Self::Brown(rotate_quarter(d)),
             Self::Rational(r) => Self::Rational(RationalDistortion {
-                numerator: turn(&r.numerator),
+                numerator: rotate_quarter(&r.numerator),
                 denominator: r.denominator,
             }),
             Self::Fisheye(_) | Self::Division(_) => *self,
@@ -238,13 +238,13 @@ impl Lens {
     }
 
     /// Returns whether the lens sees a ray inside the fold of its model.
-    pub fn is_seen(&self, x_in_cam: &Vector3<f64>) -> bool {
+    pub fn is_visible(&self, x_in_cam: &Vector3<f64>) -> bool {
         let flat = Point2::from(x_in_cam.xy() / x_in_cam.z);
         match self {
-            Self::Brown(d) => x_in_cam.z > 0.0 && d.is_seen(&flat),
+            Self::Brown(d) => x_in_cam.z > 0.0 && d.is_visible(&flat),
             Self::Rational(r) => x_in_cam.z > 0.0 && flat.coords.norm_squared() < r.fold_sq(),
-            Self::Fisheye(f) => f.sees(x_in_cam),
-            Self::Division(d) => x_in_cam.z > 0.0 && d.is_seen(&flat),
+            Self::Fisheye(f) => f.is_visible(x_in_cam),
+            Self::Division(d) => x_in_cam.z > 0.0 && d.is_visible(&flat),
         }
     }
 
@@ -354,10 +354,10 @@ mod tests {
                 }
                 let ray = lens.ray(&lens.project(&x).unwrap()).unwrap();
                 assert!(ray.normalize().cross(&x.normalize()).norm() < 1e-9);
-                assert!(lens.is_seen(&x));
+                assert!(lens.is_visible(&x));
                 assert_eq!(lens.project(&x), Some(lens.project_or_mirror(&x)));
             }
-            assert!(!lens.is_seen(&-Vector3::z()));
+            assert!(!lens.is_visible(&-Vector3::z()));
             assert!(!lens.is_none() && lens.check().is_ok());
             assert!(lens.moved(&[f64::NAN]).check().is_err());
         }

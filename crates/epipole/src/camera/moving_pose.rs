@@ -34,8 +34,15 @@ impl PoseState {
         by_p: &Vector3<f64>,
     ) -> ([f64; 6], [f64; 3]) {
         // exp(δ) R X moves by δ × R X, and g · (δ × q) = δ · (q × g).
-        let turn = rotated.cross(by_p);
-        let by_pose = [turn.x, turn.y, turn.z, by_p.x, by_p.y, by_p.z];
+        let by_rotation = rotated.cross(by_p);
+        let by_pose = [
+            by_rotation.x,
+            by_rotation.y,
+            by_rotation.z,
+            by_p.x,
+            by_p.y,
+            by_p.z,
+        ];
         (by_pose, self.matrix.tr_mul(by_p).into())
     }
 
@@ -46,8 +53,15 @@ impl PoseState {
         // −Rᵀ exp(−δ) (t + d): the axis e moves by −(R e) · d + δ · (t × R e).
         let by_pose = core::array::from_fn(|axis| {
             let r: Vector3<f64> = self.matrix.column(axis).into();
-            let turn = self.translation.cross(&r);
-            [turn.x, turn.y, turn.z, -r.x, -r.y, -r.z]
+            let by_rotation = self.translation.cross(&r);
+            [
+                by_rotation.x,
+                by_rotation.y,
+                by_rotation.z,
+                -r.x,
+                -r.y,
+                -r.z,
+            ]
         });
         (center, by_pose)
     }
@@ -59,8 +73,8 @@ impl PoseState {
         let rotation = if [a, b, c] == [0.0; 3] {
             self.rotation
         } else {
-            let turn = UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c));
-            UnitQuaternion::new_normalize((turn * self.rotation).into_inner())
+            let delta = UnitQuaternion::from_scaled_axis(Vector3::new(a, b, c));
+            UnitQuaternion::new_normalize((delta * self.rotation).into_inner())
         };
         Self::new(rotation, self.translation + Vector3::new(x, y, z))
     }

@@ -28,12 +28,12 @@ impl Observation {
     /// use nalgebra::{Matrix2x3, Point2, Vector3};
     /// // A pinhole camera with a focal length of 100 pixels, and the ray of its principal point.
     /// let by_ray = Matrix2x3::new(100.0, 0.0, 0.0, 0.0, 100.0, 0.0);
-    /// let seen = Observation::new(Point2::new(320.0, 240.0), Vector3::z(), by_ray).unwrap();
+    /// let observation = Observation::new(Point2::new(320.0, 240.0), Vector3::z(), by_ray).unwrap();
     /// // A point 1/50 to the right appears two pixels to the right.
-    /// let off_px = seen.offset_px(&Vector3::new(0.1, 0.0, 5.0)).unwrap();
+    /// let off_px = observation.offset_px(&Vector3::new(0.1, 0.0, 5.0)).unwrap();
     /// assert!((off_px.x - 2.0).abs() < 1e-12 && off_px.y == 0.0);
     /// // Points behind the camera are not seen there.
-    /// assert_eq!(seen.offset_px(&-Vector3::z()), None);
+    /// assert_eq!(observation.offset_px(&-Vector3::z()), None);
     /// ```
     pub fn new(pixel: Point2<f64>, ray: Vector3<f64>, px_by_ray: Matrix2x3<f64>) -> Option<Self> {
         let ray = ray / ray.norm();
@@ -100,7 +100,7 @@ mod tests {
     use crate::math::random::Random;
 
     #[test]
-    fn errors_are_those_of_the_photograph_near_to_the_ray() {
+    fn errors_near_the_ray_are_those_of_the_image() {
         let mut random = Random::new(5);
         let k = Intrinsics::new(500.0, 520.0, 320.0, 240.0).unwrap();
         for _ in 0..50 {
@@ -109,22 +109,23 @@ mod tests {
             let (x, y) = (ray.x / z, ray.y / z);
             let by_ray = Matrix2x3::new(500.0, 0.0, -500.0 * x, 0.0, 520.0, -520.0 * y) / z;
             let pixel = k.project(&ray.into()).unwrap();
-            let seen = Observation::new(pixel, at, by_ray).unwrap();
+            let observation = Observation::new(pixel, at, by_ray).unwrap();
             let point = 4.0 * at + 0.3 * Vector3::from_fn(|_, _| random.normal());
             let exact = k.project(&point.into()).unwrap() - pixel;
-            let (off, by_point) = seen.offset_with_derivative(&point).unwrap();
+            let (off, by_point) = observation.offset_with_derivative(&point).unwrap();
             // Near the ray this is first-order accurate for a pinhole camera.
             assert!((off - exact).norm() < 0.2 * exact.norm(), "{off} {exact}");
             let near = at + 1e-5 * (point - 4.0 * at);
             let exact = k.project(&near.into()).unwrap() - pixel;
-            assert!((seen.offset_px(&near).unwrap() - exact).norm() < 1e-3 * exact.norm());
+            assert!((observation.offset_px(&near).unwrap() - exact).norm() < 1e-3 * exact.norm());
             for axis in 0..3 {
                 let mut step = Vector3::zeros();
                 step[axis] = 1e-6;
-                let [up, down] = [point + step, point - step].map(|x| seen.offset_px(&x).unwrap());
+                let [up, down] =
+                    [point + step, point - step].map(|x| observation.offset_px(&x).unwrap());
                 assert!((by_point.column(axis) - (up - down) / 2e-6).norm() < 1e-5);
             }
-            let there_and_back = by_ray * seen.ray_by_px();
+            let there_and_back = by_ray * observation.ray_by_px();
             assert!((there_and_back - nalgebra::Matrix2::identity()).norm() < 1e-9);
         }
     }

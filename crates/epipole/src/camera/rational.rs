@@ -112,22 +112,22 @@ impl RationalDistortion {
     /// assert!((ray - Point2::new(0.3, 0.4)).norm() < 1e-12);
     /// # Ok(()) }
     /// ```
-    pub fn undistort(&self, seen: &Point2<f64>) -> Result<Point2<f64>> {
-        if !(seen.x.is_finite() && seen.y.is_finite()) {
+    pub fn undistort(&self, distorted: &Point2<f64>) -> Result<Point2<f64>> {
+        if !(distorted.x.is_finite() && distorted.y.is_finite()) {
             return Err(Error::NotFinite {
                 what: "the distorted place",
             });
         }
         let fold_sq = self.fold_sq();
-        let start = radial_start(seen, fold_sq, |r| r * self.factor(r * r).0);
+        let start = radial_start(distorted, fold_sq, |r| r * self.factor(r * r).0);
         let (ray, error) = descend(
-            seen,
+            distorted,
             start,
             fold_sq,
             |ray| self.distort(ray),
             |ray| self.jacobian(ray),
         );
-        if error <= 1e3 * RESIDUAL * (1.0 + seen.coords.norm()) {
+        if error <= 1e3 * RESIDUAL * (1.0 + distorted.coords.norm()) {
             Ok(ray)
         } else {
             Err(Error::Degenerate {
@@ -196,8 +196,8 @@ mod tests {
     /// From OpenCV 5.0's `projectPoints` with K = I and eight coefficients.
     #[test]
     fn agrees_with_another_implementation() {
-        for (ray, seen) in REFERENCE {
-            let off = wide().distort(&Point2::from(ray)) - Point2::from(seen);
+        for (ray, distorted) in REFERENCE {
+            let off = wide().distort(&Point2::from(ray)) - Point2::from(distorted);
             assert!(off.norm() < 1e-14, "{off}");
         }
     }

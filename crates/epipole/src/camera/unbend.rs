@@ -13,15 +13,15 @@ pub(super) const RESIDUAL: f64 = 1e-13;
 /// * `fold_sq`: squared radius that bounds the rays
 /// * `distort`, `jacobian`: position of a ray's image, and its derivative
 pub(super) fn descend(
-    seen: &Point2<f64>,
+    distorted: &Point2<f64>,
     start: Point2<f64>,
     fold_sq: f64,
     distort: impl Fn(&Point2<f64>) -> Point2<f64>,
     jacobian: impl Fn(&Point2<f64>) -> Matrix2<f64>,
 ) -> (Point2<f64>, f64) {
     let mut ray = start;
-    let mut error = (distort(&ray) - seen).norm();
-    let tolerance = RESIDUAL * (1.0 + seen.coords.norm());
+    let mut error = (distort(&ray) - distorted).norm();
+    let tolerance = RESIDUAL * (1.0 + distorted.coords.norm());
     for _ in 0..MAX_STEPS {
         if error <= tolerance {
             break;
@@ -29,11 +29,11 @@ pub(super) fn descend(
         let Some(inverse) = jacobian(&ray).try_inverse() else {
             break;
         };
-        let step = inverse * (distort(&ray) - seen);
+        let step = inverse * (distort(&ray) - distorted);
         let mut scale = 1.0;
         let better = loop {
             let candidate = ray - step * scale;
-            let candidate_error = (distort(&candidate) - seen).norm();
+            let candidate_error = (distort(&candidate) - distorted).norm();
             if candidate_error < error && candidate.coords.norm_squared() < fold_sq {
                 break Some((candidate, candidate_error));
             }
@@ -55,11 +55,11 @@ pub(super) fn descend(
 ///
 /// * `bent`: distorted radius of a ray with a given radius
 pub(super) fn radial_start(
-    seen: &Point2<f64>,
+    distorted: &Point2<f64>,
     fold_sq: f64,
     bent: impl Fn(f64) -> f64,
 ) -> Point2<f64> {
-    let radius = seen.coords.norm();
+    let radius = distorted.coords.norm();
     // Just inside, so that a step from there is possible.
     let mut high = if fold_sq.is_finite() {
         fold_sq.sqrt() * (1.0 - 1e-9)
@@ -86,8 +86,8 @@ pub(super) fn radial_start(
         }
     }
     if radius > 0.0 {
-        Point2::from(seen.coords * (high / radius))
+        Point2::from(distorted.coords * (high / radius))
     } else {
-        *seen
+        *distorted
     }
 }

@@ -22,7 +22,7 @@ pub(crate) struct Coordinates {
 
 impl Coordinates {
     /// Collects some matches of four lists, in this order.
-    fn gathered(
+    fn select(
         indices: impl ExactSizeIterator<Item = usize>,
         at: impl Fn(usize) -> [f64; 4],
     ) -> Self {
@@ -43,7 +43,7 @@ impl Coordinates {
 
     pub(crate) fn pixels(matches: &MatchSet) -> Self {
         let lists = matches.coordinates();
-        Self::gathered(0..matches.len(), |i| lists.map(|list| list[i]))
+        Self::select(0..matches.len(), |i| lists.map(|list| list[i]))
     }
 
     /// As [`pixels`](Self::pixels), but matches that share a pixel also share its weight.
@@ -67,7 +67,7 @@ impl Coordinates {
         };
         Self {
             weights: self.weights.clone(),
-            ..Self::gathered(0..self.len, moved)
+            ..Self::select(0..self.len, moved)
         }
     }
 
@@ -80,7 +80,7 @@ impl Coordinates {
                     .map(|(&i, weight)| votes[i] * weight)
                     .collect(),
             },
-            ..Self::gathered(indices.iter().copied(), |i| self.at(i))
+            ..Self::select(indices.iter().copied(), |i| self.at(i))
         }
     }
 
@@ -134,14 +134,14 @@ pub(crate) struct CommonFrame {
 
 impl CommonFrame {
     pub(crate) fn new(matches: &MatchSet) -> Self {
-        let share = 1.0 / matches.len().max(1) as f64;
+        let weight = 1.0 / matches.len().max(1) as f64;
         let means = matches
             .coordinates()
-            .map(|list| list.iter().map(|x| x * share).sum::<f64>());
+            .map(|list| list.iter().map(|x| x * weight).sum::<f64>());
         let mut spread = 0.0;
         for (list, mean) in matches.coordinates().iter().zip(means) {
             for x in *list {
-                spread += (x - mean) * (x - mean) * share;
+                spread += (x - mean) * (x - mean) * weight;
             }
         }
         // Each of the four coordinates gets mean square 1.

@@ -86,12 +86,12 @@ mod tests {
                 continue;
             };
             // project rejects centers behind the camera, whose epipole is the same pixel.
-            if let Ok(seen) = cam1.project(&cam2.center_in_world()) {
-                assert!((e1 - seen).norm() < 1e-6 * (1.0 + seen.coords.norm()));
+            if let Ok(projected) = cam1.project(&cam2.center_in_world()) {
+                assert!((e1 - projected).norm() < 1e-6 * (1.0 + projected.coords.norm()));
                 compared += 1;
             }
-            if let Ok(seen) = cam2.project(&cam1.center_in_world()) {
-                assert!((e2 - seen).norm() < 1e-6 * (1.0 + seen.coords.norm()));
+            if let Ok(projected) = cam2.project(&cam1.center_in_world()) {
+                assert!((e2 - projected).norm() < 1e-6 * (1.0 + projected.coords.norm()));
                 compared += 1;
             }
         }

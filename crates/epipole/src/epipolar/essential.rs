@@ -129,8 +129,8 @@ pub(crate) fn rotations_and_direction(
     }
     let direction = crosses[longest] / lengths[longest].sqrt();
     let cofactors = Matrix3::from_columns(&crosses);
-    let turned = cross_matrix(&direction) * e;
-    Some(([cofactors - turned, cofactors + turned], direction))
+    let crossed = cross_matrix(&direction) * e;
+    Some(([cofactors - crossed, cofactors + crossed], direction))
 }
 
 /// The best motion of [`decompose_essential`] by the number of points in front of both cameras.
@@ -252,9 +252,9 @@ pub(crate) fn signed_depths(
     x2: &Vector3<f64>,
 ) -> (f64, f64) {
     // Least squares of d1 R x1 − d2 x2 = −t by Cramer's rule; the determinant is never negative.
-    let turned = rotation * x1;
-    let (aa, bb, ab) = (turned.norm_squared(), x2.norm_squared(), turned.dot(x2));
-    let (at, bt) = (turned.dot(t), x2.dot(t));
+    let rotated = rotation * x1;
+    let (aa, bb, ab) = (rotated.norm_squared(), x2.norm_squared(), rotated.dot(x2));
+    let (at, bt) = (rotated.dot(t), x2.dot(t));
     (ab * bt - bb * at, aa * bt - ab * at)
 }
 
@@ -358,10 +358,10 @@ mod tests {
         let rays: Vec<_> = (0..20)
             .map(|_| Vector3::new(random.normal(), random.normal(), 3.0))
             .collect();
-        let turn = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, -0.1));
-        let turned: Vec<_> = rays.iter().map(|r| turn * r).collect();
+        let rotation = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, -0.1));
+        let rotated: Vec<_> = rays.iter().map(|r| rotation * r).collect();
         assert!(matches!(
-            essential_8point(&rays, &turned),
+            essential_8point(&rays, &rotated),
             Err(Error::Degenerate { .. })
         ));
     }

@@ -70,8 +70,8 @@ impl EssentialEstimator {
             let observed = ObservedMatches::new(pixels1, pixels2, cameras)?;
             observed.matches.at_least(5, NAME)?;
             let sight = LensMatches::new(&observed);
-            let [seen1, seen2] = &observed.seen;
-            let both = seen1.iter().zip(seen2);
+            let [observations1, observations2] = &observed.observations;
+            let both = observations1.iter().zip(observations2);
             let rays = both.map(|(one, two)| [one, two].map(Observation::ray));
             let rays = rays.collect();
             Ok(Self::of(observed.matches, rays, Box::new(sight)))
@@ -119,8 +119,8 @@ impl EssentialEstimator {
         mask: &'a [bool],
     ) -> impl Iterator<Item = [Vector3<f64>; 2]> + Clone + 'a {
         let places = self.matches.unique().places().iter();
-        let kept = places.zip(mask).filter(|(_, is)| **is);
-        kept.filter_map(|(place, _)| place.map(|place| self.rays[place]))
+        let inliers = places.zip(mask).filter(|(_, is)| **is);
+        inliers.filter_map(|(place, _)| place.map(|place| self.rays[place]))
     }
 }
 

@@ -147,7 +147,7 @@ mod tests {
                 continue;
             }
             let is_wrong = pixels[0].len().is_multiple_of(4);
-            let mut see = |x: &Point3<f64>, is_wrong: bool| {
+            let mut observe = |x: &Point3<f64>, is_wrong: bool| {
                 let noise = Vector2::from_fn(|_, _| sigma_px * random.normal());
                 let off = match is_wrong {
                     true => Vector2::from_fn(|_, _| random.uniform(-150.0, 150.0)),
@@ -155,7 +155,7 @@ mod tests {
                 };
                 camera.project(x).unwrap() + off
             };
-            let pair = [see(&in_both[0], false), see(&in_both[1], is_wrong)];
+            let pair = [observe(&in_both[0], false), observe(&in_both[1], is_wrong)];
             pixels[0].push(pair[0]);
             pixels[1].push(pair[1]);
         }
@@ -174,10 +174,13 @@ mod tests {
             report.num_inliers
         );
         let found = report.model.cam2_from_cam1();
-        let turned_deg = found.rotation.angle_to(&truth.rotation).to_degrees();
+        let rotation_deg = found.rotation.angle_to(&truth.rotation).to_degrees();
         let direction = truth.translation.vector;
         let off_deg = found.translation.vector.angle(&direction).to_degrees();
-        assert!(turned_deg < 0.05 && off_deg < 0.2, "{turned_deg} {off_deg}");
+        assert!(
+            rotation_deg < 0.05 && off_deg < 0.2,
+            "{rotation_deg} {off_deg}"
+        );
     }
 
     #[test]

@@ -87,10 +87,10 @@ impl FundamentalEstimator {
 pub(crate) fn refuse_collinear(matches: &MatchSet, what: &'static str) -> Result<()> {
     let [u1, v1, u2, v2] = matches.coordinates();
     for (u, v) in [(u1, v1), (u2, v2)] {
-        let share = 1.0 / u.len().max(1) as f64;
+        let weight = 1.0 / u.len().max(1) as f64;
         let (mean_u, mean_v) = (
-            u.iter().map(|x| x * share).sum::<f64>(),
-            v.iter().map(|x| x * share).sum::<f64>(),
+            u.iter().map(|x| x * weight).sum::<f64>(),
+            v.iter().map(|x| x * weight).sum::<f64>(),
         );
         let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
         for (x, y) in u.iter().zip(v) {

@@ -36,15 +36,15 @@ const LEAST_VOLUME: f64 = 1e-9;
 /// use nalgebra::Vector3;
 /// let (k1, k2) = (Intrinsics::centered(600.0, 640, 480)?, Intrinsics::centered(750.0, 640, 480)?);
 /// let principal = k1.principal_point();
-/// let see = |turn: Vector3<f64>| {
-///     let e = essential_from_motion(&RigidTransform::new(Vector3::new(-1.0, 0.1, 0.2), turn))?;
+/// let focals = |rotation_vector: Vector3<f64>| {
+///     let e = essential_from_motion(&RigidTransform::new(Vector3::new(-1.0, 0.1, 0.2), rotation_vector))?;
 ///     let f = fundamental_from_essential(&e, &k1, &k2)?;
 ///     focal_lengths_from_fundamental(&f, &principal, &principal)
 /// };
-/// let [f1, f2] = see(Vector3::new(0.2, 0.1, 0.0))?;
+/// let [f1, f2] = focals(Vector3::new(0.2, 0.1, 0.0))?;
 /// assert!((f1 - 600.0).abs() < 1e-6 && (f2 - 750.0).abs() < 1e-6);
 /// // Two cameras that look straight ahead.
-/// assert!(see(Vector3::zeros()).is_err());
+/// assert!(focals(Vector3::zeros()).is_err());
 /// # Ok(()) }
 /// ```
 pub fn focal_lengths_from_fundamental(
@@ -64,7 +64,7 @@ pub fn focal_lengths_from_fundamental(
     let open = Error::Degenerate {
         what: "a focal length from a fundamental matrix",
         why: "the optical axes meet or are parallel, or come too near to that for these matches; give the focal \
-              length, or turn the camera aside between the photographs",
+              length, or turn the camera aside between the images",
     };
     let squares = [first_focal_sq(&about), first_focal_sq(&about.transpose())];
     // Also false for NaN.
@@ -121,8 +121,8 @@ mod tests {
         for _ in 0..500 {
             let [k1, k2] = cameras(&mut random);
             let mut vector = |reach: f64| Vector3::from_fn(|_, _| random.uniform(-reach, reach));
-            let (turn, shift) = (vector(1.0), vector(1.0));
-            let motion = RigidTransform::new(shift, turn);
+            let (rotation, shift) = (vector(1.0), vector(1.0));
+            let motion = RigidTransform::new(shift, rotation);
             let axes_span = shift.normalize().cross(&(motion.rotation * Vector3::z())).z;
             if axes_span.abs() < 0.05 {
                 continue;
@@ -159,9 +159,9 @@ mod tests {
         for _ in 0..100 {
             let angle = random.uniform(-0.5, 0.5);
             // Both look at one point: around it, or rolled, or from different distances.
-            let turn = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
+            let rotation = RigidTransform::new(Vector3::zeros(), Vector3::y() * angle);
             let pivot = Vector3::new(0.0, 0.0, 5.0);
-            let around = RigidTransform::new(pivot - turn * pivot, Vector3::y() * angle);
+            let around = RigidTransform::new(pivot - rotation * pivot, Vector3::y() * angle);
             refused(&around);
             let roll = RigidTransform::new(Vector3::zeros(), Vector3::z() * angle);
             refused(&(roll * around));

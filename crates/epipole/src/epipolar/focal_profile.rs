@@ -103,7 +103,7 @@ impl<'a> FocalProfile<'a> {
         let inliers = (0..errors_sq.len())
             .filter(|index| errors_sq[*index] < max_error_px * max_error_px)
             .collect();
-        let few = (of.matches.len() > MAX_MATCHES).then(|| chosen(inliers, random));
+        let few = (of.matches.len() > MAX_MATCHES).then(|| choose_subset(inliers, random));
         let mut profile = Self {
             num_each: few.as_ref().map_or(1.0, |(_, num_each)| *num_each),
             of: match few {
@@ -134,8 +134,8 @@ impl<'a> FocalProfile<'a> {
         }
         let count = ((span / libm::log(STEP)) as usize + 2).min(MAX_TRIED);
         for index in 0..count {
-            let share = index as f64 / (count - 1) as f64;
-            let focal_px = range.start * libm::exp(share * span);
+            let fraction = index as f64 / (count - 1) as f64;
+            let focal_px = range.start * libm::exp(fraction * span);
             let mut starts = self.five_point_starts(focal_px, &inliers, random);
             starts.extend(pose_of_fundamental(fundamental, self.intrinsics(focal_px)));
             starts.push((model.pose.rotation, model.pose.direction));
@@ -295,7 +295,7 @@ impl<'a> FocalProfile<'a> {
 
 /// Chooses at most [`MAX_MATCHES`] of the inliers at random; returns them, and the number that each
 /// represents.
-fn chosen(mut inliers: Vec<usize>, random: &mut Random) -> (Vec<usize>, f64) {
+fn choose_subset(mut inliers: Vec<usize>, random: &mut Random) -> (Vec<usize>, f64) {
     let (all, few) = (inliers.len(), inliers.len().min(MAX_MATCHES));
     for place in 0..few {
         inliers.swap(place, place + random.below(all - place));

@@ -63,7 +63,7 @@ pub fn essential_from_motion(cam2_from_cam1: &RigidTransform) -> Result<Matrix3<
 /// # Ok(()) }
 /// ```
 pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Result<Matrix3<f64>> {
-    if share_center(cam1, cam2) {
+    if have_same_center(cam1, cam2) {
         return Err(NO_BASELINE);
     }
     let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
@@ -76,7 +76,7 @@ pub fn fundamental_from_cameras(cam1: &PosedCamera, cam2: &PosedCamera) -> Resul
 
 /// Returns whether two cameras have the same center up to rounding, which would give a baseline in
 /// a random direction.
-pub(crate) fn share_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
+pub(crate) fn have_same_center(cam1: &PosedCamera, cam2: &PosedCamera) -> bool {
     let (c1, c2) = (cam1.center_in_world().coords, cam2.center_in_world().coords);
     let (c1, c2) = {
         let scale = power_of_two(c1.amax().max(c2.amax()));
@@ -155,7 +155,7 @@ fn product(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>) -> Result<Matri
 
 pub(super) const NO_BASELINE: Error = Error::Degenerate {
     what: "the epipolar geometry",
-    why: "the two cameras stand at the same place",
+    why: "the two cameras are at the same place",
 };
 
 /// Scales a matrix to unit Frobenius norm and keeps its sign.

@@ -33,7 +33,7 @@ impl Lenses {
         let margin_rad = max_error_px * self.pixel_rad;
         PoseJudge {
             sampson: Sampson(entries(fundamental)),
-            turned1: entries(&(pose.rotation * self.inverse1)),
+            rotated1: entries(&(pose.rotation * self.inverse1)),
             ray2: entries(&self.inverse2),
             direction: [pose.direction.x, pose.direction.y, pose.direction.z],
             margin_sq: (margin_rad * margin_rad).min(1.0),
@@ -48,7 +48,7 @@ impl Lenses {
 /// b are equal up to noise, so b may be outside by the angle of the threshold.
 pub(crate) struct PoseJudge {
     sampson: Sampson,
-    turned1: [f64; 9],
+    rotated1: [f64; 9],
     ray2: [f64; 9],
     direction: [f64; 3],
     margin_sq: f64,
@@ -58,7 +58,7 @@ impl PoseJudge {
     /// Returns, for each of eight matches, whether the rays may meet in front of both cameras.
     #[inline(always)]
     fn in_front(&self, [u1, v1, u2, v2]: &[Lanes; 4]) -> [bool; LANES] {
-        let (m, k, t) = (&self.turned1, &self.ray2, &self.direction);
+        let (m, k, t) = (&self.rotated1, &self.ray2, &self.direction);
         let mut in_front = [false; LANES];
         for l in 0..LANES {
             let a = [0, 3, 6].map(|row| m[row] * u1[l] + m[row + 1] * v1[l] + m[row + 2]);

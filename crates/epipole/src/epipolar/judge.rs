@@ -126,10 +126,10 @@ pub(crate) fn weigh(
                 weight[l] = loss.weight(errors_sq[l]);
             }
         }
-        (loss, Some(given)) => {
+        (loss, Some(weights)) => {
             for l in 0..count {
-                total[l] += given[l] * loss.rho(errors_sq[l]);
-                weight[l] = given[l] * loss.weight(errors_sq[l]);
+                total[l] += weights[l] * loss.rho(errors_sq[l]);
+                weight[l] = weights[l] * loss.weight(errors_sq[l]);
             }
         }
     }

@@ -26,12 +26,12 @@ struct RayPair {
 }
 
 impl RayPair {
-    fn new(seen: [&Observation; 2]) -> Self {
-        let by_px = seen.map(Observation::ray_by_px);
+    fn new(observations: [&Observation; 2]) -> Self {
+        let by_px = observations.map(Observation::ray_by_px);
         // Half of the squared Frobenius norm is the mean over directions.
         let pixel_sq = 0.5 * (by_px[0].norm_squared() + by_px[1].norm_squared());
         Self {
-            rays: seen.map(Observation::ray),
+            rays: observations.map(Observation::ray),
             by_px,
             noise_sq: (PARALLEL_PX * PARALLEL_PX * pixel_sq).min(1.0),
         }
@@ -81,8 +81,8 @@ impl RayPair {
             return true;
         }
         // Far away both rays are parallel, up to noise.
-        let turned = pose.rotation * x1;
-        turned.dot(x2) > 0.0 && turned.cross(x2).norm_squared() <= self.noise_sq
+        let rotated = pose.rotation * x1;
+        rotated.dot(x2) > 0.0 && rotated.cross(x2).norm_squared() <= self.noise_sq
     }
 }
 
@@ -96,8 +96,8 @@ pub(super) struct LensMatches {
 
 impl LensMatches {
     pub(super) fn new(observed: &ObservedMatches) -> Self {
-        let [seen1, seen2] = &observed.seen;
-        let both = seen1.iter().zip(seen2);
+        let [observations1, observations2] = &observed.observations;
+        let both = observations1.iter().zip(observations2);
         Self {
             pairs: both.map(|(one, two)| RayPair::new([one, two])).collect(),
             matches: observed.matches.clone(),
@@ -237,7 +237,7 @@ impl SampsonErrors for RayErrors<'_> {
 /// images; infinite if the rays cannot meet in front of both cameras.
 ///
 /// * `cam2_from_cam1`: the length of its translation does not matter
-/// * `seen1`, `seen2`: observations of both cameras
+/// * `observation1`, `observation2`: observations of both cameras
 ///
 /// Between pinhole cameras it is [`sampson_px`](super::sampson_px) up to terms of second order.
 ///
@@ -251,23 +251,23 @@ impl SampsonErrors for RayErrors<'_> {
 /// use nalgebra::Point2;
 /// let camera = Camera::pinhole(Intrinsics::new(100.0, 100.0, 0.0, 0.0)?, 640, 480);
 /// let right = RigidTransform::translation(-1.0, 0.0, 0.0);
-/// let seen1 = camera.observe(&Point2::new(0.0, 0.0))?;
+/// let observation1 = camera.observe(&Point2::new(0.0, 0.0))?;
 /// // A pixel that is too low by 2: each image is off by half of that.
-/// let seen2 = camera.observe(&Point2::new(-5.0, 2.0))?;
-/// assert!((tangent_sampson_px(&right, &seen1, &seen2) - 2.0_f64.sqrt()).abs() < 0.01);
+/// let observation2 = camera.observe(&Point2::new(-5.0, 2.0))?;
+/// assert!((tangent_sampson_px(&right, &observation1, &observation2) - 2.0_f64.sqrt()).abs() < 0.01);
 /// // A point moves to the left when its camera moves to the right.
-/// let seen2 = camera.observe(&Point2::new(50.0, 0.0))?;
-/// assert_eq!(tangent_sampson_px(&right, &seen1, &seen2), f64::INFINITY);
+/// let observation2 = camera.observe(&Point2::new(50.0, 0.0))?;
+/// assert_eq!(tangent_sampson_px(&right, &observation1, &observation2), f64::INFINITY);
 /// # Ok(()) }
 /// ```
 pub fn tangent_sampson_px(
     cam2_from_cam1: &RigidTransform,
-    seen1: &Observation,
-    seen2: &Observation,
+    observation1: &Observation,
+    observation2: &Observation,
 ) -> f64 {
     let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
     let pose = RelativePose::from((rotation, cam2_from_cam1.translation.vector));
-    let pair = RayPair::new([seen1, seen2]);
+    let pair = RayPair::new([observation1, observation2]);
     match pair.in_front(&pose) {
         true => pair.sampson_sq(&pose.essential()).sqrt(),
         false => f64::INFINITY,
@@ -295,12 +295,12 @@ mod tests {
         let mut random = Random::new(4);
         for _ in 0..20 {
             let x = Point3::from(Vector3::from_fn(|_, _| random.normal()) + 2.0 * Vector3::z());
-            let seen = [x, truth * x].map(|x| {
+            let observations = [x, truth * x].map(|x| {
                 let off = Vector2::from_fn(|_, _| random.normal());
                 let pixel: Point2<f64> = camera.project(&x).unwrap() + off;
                 camera.observe(&pixel).unwrap()
             });
-            let pair = RayPair::new([&seen[0], &seen[1]]);
+            let pair = RayPair::new([&observations[0], &observations[1]]);
             let at = |delta: &DVector<f64>| {
                 let moved = essential + Matrix3::from_row_slice(delta.as_slice());
                 DVector::from_element(1, pair.linearized(&moved).unwrap().0)

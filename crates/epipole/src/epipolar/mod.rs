@@ -55,7 +55,7 @@ pub use estimate_pose_and_focal::{PoseWithFocal, estimate_relative_pose_and_foca
 pub use estimate_with_gravity::{GravityEstimator, estimate_relative_pose_with_gravity};
 pub use five_point::essential_5point;
 pub use focal_lengths::focal_lengths_from_fundamental;
-pub(crate) use from_cameras::share_center;
+pub(crate) use from_cameras::have_same_center;
 pub use from_cameras::{
     essential_from_fundamental, essential_from_motion, fundamental_from_cameras,
     fundamental_from_essential,

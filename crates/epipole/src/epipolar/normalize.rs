@@ -41,14 +41,14 @@ impl Normalization {
                 got: 0,
             });
         }
-        let share = 1.0 / points.len() as f64;
+        let weight = 1.0 / points.len() as f64;
         let mut centroid = Point2::origin();
         for p in points {
-            centroid += p.coords * share;
+            centroid += p.coords * weight;
         }
         let mut mean_sq = 0.0;
         for p in points {
-            mean_sq += (p - centroid).norm_squared() * share;
+            mean_sq += (p - centroid).norm_squared() * weight;
         }
         if !(centroid.x.is_finite() && centroid.y.is_finite() && mean_sq.is_finite()) {
             return Err(Error::NotFinite {

@@ -10,7 +10,7 @@ use nalgebra::Point2;
 #[derive(Debug, Clone)]
 pub(crate) struct ObservedMatches {
     pub(crate) matches: MatchSet,
-    pub(crate) seen: [Vec<Observation>; 2],
+    pub(crate) observations: [Vec<Observation>; 2],
 }
 
 impl ObservedMatches {
@@ -28,11 +28,23 @@ impl ObservedMatches {
             let observe = |pixel| camera.observe(pixel).ok();
             pixels.iter().map(observe).collect::<Vec<_>>()
         });
-        let both = |i: usize| observed.iter().all(|seen| seen[i].is_some());
+        let both = |i: usize| {
+            observed
+                .iter()
+                .all(|observations| observations[i].is_some())
+        };
         let matches = MatchSet::of_usable(pixels1, pixels2, both)?;
-        let kept = matches.unique().first_occurrences();
-        let seen = observed.map(|seen| kept.iter().filter_map(|&i| seen[i]).collect());
-        Ok(Self { matches, seen })
+        let unique_indices = matches.unique().first_occurrences();
+        let observations = observed.map(|observations| {
+            unique_indices
+                .iter()
+                .filter_map(|&i| observations[i])
+                .collect()
+        });
+        Ok(Self {
+            matches,
+            observations,
+        })
     }
 }
 
@@ -42,7 +54,7 @@ mod tests {
     use crate::camera::{Fisheye, Intrinsics, Lens};
 
     #[test]
-    fn matches_that_a_lens_does_not_see_are_left_out() {
+    fn matches_invisible_to_a_lens_are_left_out() {
         let pinhole = Camera::pinhole(Intrinsics::centered(200.0, 640, 640).unwrap(), 640, 640);
         let fisheye = Camera {
             lens: Lens::Fisheye(Fisheye::default()),
@@ -54,7 +66,12 @@ mod tests {
         let pixels = [middle, far, middle];
         let observed = ObservedMatches::new(&pixels, &pixels, [&fisheye, &pinhole]).unwrap();
         assert_eq!(observed.matches.unique().places(), [Some(0), None, Some(0)]);
-        assert!(observed.seen.iter().all(|seen| seen.len() == 1));
+        assert!(
+            observed
+                .observations
+                .iter()
+                .all(|observations| observations.len() == 1)
+        );
         let all = ObservedMatches::new(&pixels, &pixels, [&pinhole; 2]).unwrap();
         assert_eq!(all.matches.len(), 2);
     }

@@ -76,9 +76,12 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_has_no_other_motion() {
-        let turn = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3)).into_inner();
-        assert_eq!(other_motion_of_plane(&turn, &Vector3::x(), &turn), None);
+    fn a_rotation_has_no_other_motion() {
+        let rotation = Rotation3::from_scaled_axis(Vector3::new(0.1, 0.2, 0.3)).into_inner();
+        assert_eq!(
+            other_motion_of_plane(&rotation, &Vector3::x(), &rotation),
+            None
+        );
         // Straight towards a plane: the normal and w are parallel.
         let h = Matrix3::identity() + Vector3::z() * Vector3::z().transpose() * 0.2;
         let (r, t) = other_motion_of_plane(&Matrix3::identity(), &Vector3::z(), &h).unwrap();

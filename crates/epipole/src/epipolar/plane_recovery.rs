@@ -30,7 +30,7 @@ const TRIPLES: [[usize; 3]; 5] = [[0, 1, 2], [3, 4, 5], [0, 1, 6], [3, 4, 6], [2
 const MAX_PAIRS: usize = 400;
 
 /// Minimum fraction of the inliers on a dominant plane.
-const DOMINANT_SHARE: f64 = 0.75;
+const DOMINANT_FRACTION: f64 = 0.75;
 
 /// Number of triples of inliers to try in search of a dominant plane: one in ten thousand searches
 /// finds no triple on it.
@@ -180,12 +180,12 @@ impl PlaneRecovery {
         }
         // Three matches give a rough plane; the fit finds more.
         let (count, h) = best?;
-        if (count as f64) < 0.5 * DOMINANT_SHARE * tried as f64 {
+        if (count as f64) < 0.5 * DOMINANT_FRACTION * tried as f64 {
             return None;
         }
         let h = self.fit_plane(matches, h, max_error)?;
         let count = inliers.iter().filter(|&&i| near(&h, i)).count();
-        (count as f64 >= DOMINANT_SHARE * inliers.len() as f64).then_some(h)
+        (count as f64 >= DOMINANT_FRACTION * inliers.len() as f64).then_some(h)
     }
 
     /// Collects the matches off the plane, except those so close to it that they hardly constrain
@@ -261,8 +261,8 @@ impl PlaneRecovery {
                 // Inliers beyond those of the plane are off it; a pair of them must be drawn with
                 // probability 0.99.
                 let off = found.num_inliers.saturating_sub(self.on_plane.len()).max(2);
-                let share = (off as f64 / num_off as f64).min(1.0);
-                let trials = libm::log(0.01) / libm::log1p(-(share * share).min(0.999_999));
+                let fraction = (off as f64 / num_off as f64).min(1.0);
+                let trials = libm::log(0.01) / libm::log1p(-(fraction * fraction).min(0.999_999));
                 needed = needed.min((trials.ceil() as usize).max(tried));
             }
         }

@@ -150,9 +150,9 @@ impl Factored {
         let f = self.matrix();
         let mut d = SMatrix::<f64, 9, 7>::zeros();
         for axis in 0..3 {
-            let turn = cross_matrix(&Vector3::ith(axis, 1.0));
-            d.set_column(axis, &flatten(&(turn * f)));
-            d.set_column(3 + axis, &flatten(&(f * turn.transpose())));
+            let generator = cross_matrix(&Vector3::ith(axis, 1.0));
+            d.set_column(axis, &flatten(&(generator * f)));
+            d.set_column(3 + axis, &flatten(&(f * generator.transpose())));
         }
         d.set_column(
             6,
@@ -162,13 +162,13 @@ impl Factored {
     }
 
     pub(crate) fn plus(&self, delta: &SVector<f64, 7>) -> Self {
-        let turn = |i: usize| {
+        let rotation = |i: usize| {
             Rotation3::from_scaled_axis(Vector3::new(delta[i], delta[i + 1], delta[i + 2]))
                 .into_inner()
         };
         Self {
-            u: turn(0) * self.u,
-            v: turn(3) * self.v,
+            u: rotation(0) * self.u,
+            v: rotation(3) * self.v,
             sigma: self.sigma + delta[6],
         }
     }
@@ -272,8 +272,8 @@ mod tests {
             for i in 0..matches.len() {
                 let (a, b) = matches.pair(i);
                 let one = MatchSet::new(&[a], &[b]).unwrap();
-                let alone = Coordinates::pixels(&one).mapped(&frame);
-                let sums = linearize(&alone, &factored.matrix(), &RobustLoss::Trivial);
+                let single = Coordinates::pixels(&one).mapped(&frame);
+                let sums = linearize(&single, &factored.matrix(), &RobustLoss::Trivial);
                 let mut normal = NormalEquations::new();
                 project(&sums, &factored.derivatives(), &mut normal);
                 analytic.set_row(i, &(normal.gradient / r[i]).transpose());

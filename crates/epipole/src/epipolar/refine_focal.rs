@@ -112,8 +112,8 @@ pub(crate) fn relative_focal_deviation(
     problem.accumulate(&((pose.rotation, pose.direction), focal_px), &mut normal);
     let variance = 2.0 * normal.cost / num_matches.checked_sub(6).filter(|n| *n > 0)? as f64;
     let inverse = normal.hessian.cholesky()?.inverse();
-    let share = (variance * inverse[(5, 5)]).sqrt();
-    share.is_finite().then_some(share)
+    let deviation = (variance * inverse[(5, 5)]).sqrt();
+    deviation.is_finite().then_some(deviation)
 }
 
 /// Refines a relative pose together with the common focal length of both cameras.
@@ -159,8 +159,8 @@ mod tests {
                 centers: &FocalCenters::new(&frame, &middles),
                 loss: RobustLoss::Trivial,
             };
-            let turn = Vector3::from_fn(|_, _| 0.3 * random.normal());
-            let rotation = Rotation3::from_scaled_axis(turn).into_inner();
+            let rotation_vector = Vector3::from_fn(|_, _| 0.3 * random.normal());
+            let rotation = Rotation3::from_scaled_axis(rotation_vector).into_inner();
             let direction = Vector3::from_fn(|_, _| random.normal()).normalize();
             let model = ((rotation, direction), random.uniform(300.0, 1500.0));
             // F has entries of millions of px²: scale to 1 for finite differences.

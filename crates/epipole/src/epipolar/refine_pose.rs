@@ -155,10 +155,10 @@ impl<E: SampsonErrors, const N: usize> FixedProblem<N> for PoseProblem<'_, E, N>
 
 /// Moves a pose; parameters as in [`essential_derivatives`].
 pub(super) fn moved_pose((rotation, direction): &Pose, delta: &SVector<f64, 5>) -> Pose {
-    let turn = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
+    let delta_rotation = Rotation3::from_scaled_axis(Vector3::new(delta[0], delta[1], delta[2]));
     let [b1, b2] = tangent_plane(direction);
     (
-        turn.into_inner() * rotation,
+        delta_rotation.into_inner() * rotation,
         (direction + b1 * delta[3] + b2 * delta[4]).normalize(),
     )
 }
@@ -171,12 +171,12 @@ pub(super) fn refine_pose(
     options: &LmOptions,
 ) -> Option<Pose> {
     match steps {
-        Steps::Free => minimized(errors, start, SMatrix::<f64, 5, 5>::identity(), options),
-        Steps::AboutGravity(g) => minimized(errors, start, Steps::about_gravity(g), options),
+        Steps::Free => minimize_pose(errors, start, SMatrix::<f64, 5, 5>::identity(), options),
+        Steps::AboutGravity(g) => minimize_pose(errors, start, Steps::about_gravity(g), options),
     }
 }
 
-fn minimized<const N: usize>(
+fn minimize_pose<const N: usize>(
     errors: &impl SampsonErrors,
     start: Pose,
     steps: SMatrix<f64, 5, N>,

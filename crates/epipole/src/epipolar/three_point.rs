@@ -88,19 +88,19 @@ pub(super) struct Upright {
 impl Upright {
     /// Returns `None` for zero gravity vectors.
     pub(super) fn new(gravity1: &Vector3<f64>, gravity2: &Vector3<f64>) -> Option<Self> {
-        let turn = |gravity: &Vector3<f64>| -> Option<(Vector3<f64>, Matrix3<f64>)> {
+        let alignment = |gravity: &Vector3<f64>| -> Option<(Vector3<f64>, Matrix3<f64>)> {
             let down = unit(gravity)?;
             let y = Vector3::y();
-            let turn = Rotation3::rotation_between(&down, &y)
+            let alignment = Rotation3::rotation_between(&down, &y)
                 // From upside down, any 180° rotation about a horizontal axis will do.
                 .unwrap_or_else(|| {
                     Rotation3::from_matrix_unchecked(Matrix3::from_diagonal(&Vector3::new(
                         1.0, -1.0, -1.0,
                     )))
                 });
-            Some((down, turn.into_inner()))
+            Some((down, alignment.into_inner()))
         };
-        let ((_, from_cam1), (gravity2, from_cam2)) = (turn(gravity1)?, turn(gravity2)?);
+        let ((_, from_cam1), (gravity2, from_cam2)) = (alignment(gravity1)?, alignment(gravity2)?);
         Some(Self {
             from_cam1,
             from_cam2,
@@ -128,13 +128,13 @@ pub(super) fn solve(
     // (1 + q²) R x1 × x2 with q = tan(θ/2): quadratics in q.
     let rows: [[[f64; 3]; 3]; 3] = core::array::from_fn(|i| {
         let (a, b) = (&upright1[i], &upright2[i]);
-        let turned = [
+        let rotated = [
             [a.x, 2.0 * a.z, -a.x],
             [a.y, 0.0, a.y],
             [a.z, -2.0 * a.x, -a.z],
         ];
         let cross = |j: usize, k: usize| {
-            core::array::from_fn(|n| turned[j][n] * b[k] - turned[k][n] * b[j])
+            core::array::from_fn(|n| rotated[j][n] * b[k] - rotated[k][n] * b[j])
         };
         [cross(1, 2), cross(2, 0), cross(0, 1)]
     });
@@ -248,7 +248,7 @@ mod tests {
 
     /// Upside down, and rotated by 180° about the vertical.
     #[test]
-    fn special_turns() {
+    fn special_rotations() {
         let mut random = Random::new(2);
         let half = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), core::f64::consts::PI);
         for gravity in [Vector3::y(), -Vector3::y(), Vector3::new(1e-9, -1.0, 0.0)] {
@@ -287,9 +287,9 @@ mod tests {
                 let shaken = |random: &mut Random, ray: &Vector3<f64>| {
                     ray + noise * Vector3::from_fn(|_, _| random.normal())
                 };
-                let seen2: [_; 3] = core::array::from_fn(|i| shaken(&mut random, &rays2[i]));
+                let noisy2: [_; 3] = core::array::from_fn(|i| shaken(&mut random, &rays2[i]));
                 let gravity2 = shaken(&mut random, &(motion.rotation * gravity));
-                let solutions = relative_pose_3point(&rays1, &seen2, &gravity, &gravity2);
+                let solutions = relative_pose_3point(&rays1, &noisy2, &gravity, &gravity2);
                 let best = solutions.iter().map(|s| off(s, &motion));
                 errors.push(best.fold(2.0, f64::min));
             }

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_shapes_have_a_response() {
+    fn unusual_shapes_have_a_response() {
         for (w, h) in [(0, 0), (1, 1), (1, 40), (40, 1), (2, 2)] {
             let image = GrayImage32::from_fn(w, h, |u, v| image::Luma([(u + v) as f32]));
             let response =

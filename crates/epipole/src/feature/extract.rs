@@ -59,7 +59,7 @@ pub fn detect_features(
 }
 
 /// Progress after the search at the original size, if a search at twice the size follows.
-const OWN_SIZE_SHARE: f32 = 0.2;
+const OWN_SIZE_FRACTION: f32 = 0.2;
 
 /// Runs SIFT, at twice the size if the image is small, or if the larger features leave room for
 /// more.
@@ -74,7 +74,7 @@ fn sift(
     }
     let mut before = 0.0;
     if options.max_features > 0 {
-        before = OWN_SIZE_SHARE;
+        before = OWN_SIZE_FRACTION;
         let found = detect_sift(image, &once, &mut Part::new(monitor, 0.0, before))?;
         if found.keypoints.len() >= options.max_features {
             return Ok(found);
@@ -310,7 +310,7 @@ mod tests {
 
     /// The same image, treated as large or small.
     #[test]
-    fn large_photographs_have_the_features_of_small_ones() {
+    fn large_images_have_the_features_of_small_ones() {
         let image = busy();
         let found = |max_upsampled_pixels, max_features| {
             let options = FeatureOptions {
@@ -318,12 +318,15 @@ mod tests {
                 max_features,
                 ..FeatureOptions::default()
             };
-            let mut shares = Vec::new();
+            let mut fractions = Vec::new();
             let found = detect_features(&image, &options, &mut |status: Status| {
-                shares.push(status.share);
+                fractions.push(status.fraction);
                 ControlFlow::Continue(())
             });
-            assert!(shares.is_sorted() && shares[0] == 0.0, "{shares:?}");
+            assert!(
+                fractions.is_sorted() && fractions[0] == 0.0,
+                "{fractions:?}"
+            );
             found.unwrap()
         };
         let num_pixels = 120 * 100;
@@ -423,7 +426,7 @@ mod tests {
     }
 
     #[test]
-    fn photographs_are_gray_as_in_8_bits() {
+    fn images_are_gray_as_in_8_bits() {
         let photo = RgbImage::from_fn(16, 16, |u, v| Rgb([(u * 16) as u8, (v * 16) as u8, 77]));
         let gray = photo_to_gray(&photo);
         for value in gray.as_raw() {

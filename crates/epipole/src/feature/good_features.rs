@@ -154,17 +154,17 @@ pub fn good_features_to_track(
         }
         return Ok(chosen.list);
     };
-    let share = limit.div_ceil(grid.columns.saturating_mul(grid.rows));
-    let mut given = vec![0usize; grid.columns.saturating_mul(grid.rows).min(1 << 20)];
-    let cells = given.len();
+    let quota = limit.div_ceil(grid.columns.saturating_mul(grid.rows));
+    let mut counts = vec![0usize; grid.columns.saturating_mul(grid.rows).min(1 << 20)];
+    let cells = counts.len();
     let mut rest = Vec::new();
     for candidate in candidates {
         let column = (candidate.u / width * grid.columns as f64) as usize;
         let row = (candidate.v / height * grid.rows as f64) as usize;
         let cell = row.saturating_mul(grid.columns).saturating_add(column) % cells;
-        if given[cell] < share && chosen.list.len() < limit {
+        if counts[cell] < quota && chosen.list.len() < limit {
             if chosen.push_if_free(candidate) {
-                given[cell] += 1;
+                counts[cell] += 1;
             }
         } else {
             rest.push(candidate);

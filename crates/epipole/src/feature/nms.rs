@@ -51,8 +51,8 @@ pub fn non_maximum_suppression(
     let mut peaks = Vec::new();
     let mut stays = vec![false; values.len()];
     for v in 0..height {
-        let share = v as f32 / height as f32;
-        report(monitor, Stage::FeatureDetection, share)?;
+        let fraction = v as f32 / height as f32;
+        report(monitor, Stage::FeatureDetection, fraction)?;
         let row = &values[v * width..(v + 1) * width];
         for (u, &value) in row.iter().enumerate() {
             if value > threshold && is_peak(values, &stays, width, height, u, v, radius) {

@@ -328,17 +328,21 @@ mod tests {
         let tracks =
             track_lucas_kanade(&first, &second, &points, &TrackOptions::default(), &mut ())
                 .unwrap();
-        let (mut kept, mut ours, mut theirs) = (0, 0.0, 0.0);
+        let (mut num_tracked, mut ours, mut theirs) = (0, 0.0, 0.0);
         for (track, row) in tracks.iter().zip(list.values.chunks_exact(6)) {
             let Some(track) = track else { continue };
             let truth = Point2::new(f64::from(row[2]), f64::from(row[3]));
             let opencv = Point2::new(f64::from(row[4]), f64::from(row[5]));
-            kept += 1;
+            num_tracked += 1;
             ours += (track.point - truth).norm();
             theirs += (opencv - truth).norm();
             assert!((track.point - truth).norm() < 0.25, "{track:?} {truth}");
         }
-        assert!(kept * 10 >= points.len() * 9, "{kept} of {}", points.len());
+        assert!(
+            num_tracked * 10 >= points.len() * 9,
+            "{num_tracked} of {}",
+            points.len()
+        );
         assert!(ours <= 1.05 * theirs, "{ours} {theirs}");
     }
 

@@ -323,7 +323,7 @@ mod tests {
     use crate::imaging::DerivativeFilter;
 
     #[test]
-    fn one_pixel_alone_has_what_it_has_among_all() {
+    fn a_single_pixel_has_the_same_tensor_as_among_all() {
         let image = crate::imaging::fixture::gray32("texture.npy");
         for (derivative, window, scaling, border) in [
             (

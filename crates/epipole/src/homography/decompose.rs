@@ -229,11 +229,17 @@ mod tests {
     #[test]
     fn pure_rotation_and_singular_matrices() {
         let k = Intrinsics::new(500.0, 500.0, 320.0, 240.0).unwrap();
-        let turn = RigidTransform::rotation(Vector3::new(0.1, 0.3, -0.2));
-        let h = homography_from_motion(&turn, &Vector3::z(), f64::INFINITY, &k, &k);
+        let rotation_only = RigidTransform::rotation(Vector3::new(0.1, 0.3, -0.2));
+        let h = homography_from_motion(&rotation_only, &Vector3::z(), f64::INFINITY, &k, &k);
         let motions = decompose_homography(&h, &k, &k).unwrap();
         assert_eq!(motions.len(), 1);
-        assert!(motions[0].cam2_from_cam1.rotation.angle_to(&turn.rotation) < 1e-7);
+        assert!(
+            motions[0]
+                .cam2_from_cam1
+                .rotation
+                .angle_to(&rotation_only.rotation)
+                < 1e-7
+        );
         assert_eq!(
             motions[0].cam2_from_cam1.translation.vector,
             Vector3::zeros()

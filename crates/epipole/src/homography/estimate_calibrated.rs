@@ -15,7 +15,7 @@ use nalgebra::{Matrix3, Point2, SMatrix, SVector, Vector3};
 struct RayHomographyEstimator {
     matches: MatchSet,
     rays1: Vec<Vector3<f64>>,
-    seen2: Vec<Observation>,
+    observations2: Vec<Observation>,
 }
 
 /// Returns three rays scaled so that their sum is the fourth; `None` if three of the four lie in a
@@ -50,7 +50,7 @@ impl RayHomographyEstimator {
     ) -> Option<Matrix3<f64>> {
         let problem = RayHomographyProblem {
             rays1: &self.rays1,
-            seen2: &self.seen2,
+            observations2: &self.observations2,
             used,
             loss,
         };
@@ -75,12 +75,12 @@ impl Estimator for RayHomographyEstimator {
 
     fn fit_sample(&mut self, sample: &[usize], models: &mut Vec<Matrix3<f64>>) {
         let rays1 = core::array::from_fn(|i| self.rays1[sample[i]]);
-        let rays2 = core::array::from_fn(|i| self.seen2[sample[i]].ray());
+        let rays2 = core::array::from_fn(|i| self.observations2[sample[i]].ray());
         models.extend(solve(&rays1, &rays2));
     }
 
     fn error_sq(&self, homography: &Matrix3<f64>, index: usize) -> f64 {
-        self.seen2[index].error_sq(&(homography * self.rays1[index]))
+        self.observations2[index].error_sq(&(homography * self.rays1[index]))
     }
 
     fn refine(
@@ -109,7 +109,7 @@ impl Estimator for RayHomographyEstimator {
 /// All nine entries of H are free. Its norm, which does not affect errors, is held by damping.
 struct RayHomographyProblem<'a> {
     rays1: &'a [Vector3<f64>],
-    seen2: &'a [Observation],
+    observations2: &'a [Observation],
     used: Subset<'a>,
     loss: RobustLoss,
 }
@@ -120,8 +120,8 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     fn accumulate(&self, homography: &Matrix3<f64>, normal: &mut NormalEquations<9>) {
         for (index, root) in self.used.iter() {
             let ray1 = &self.rays1[index];
-            let seen = self.seen2[index].offset_with_derivative(&(homography * ray1));
-            let Some((off, by_point)) = seen else {
+            let offset = self.observations2[index].offset_with_derivative(&(homography * ray1));
+            let Some((off, by_point)) = offset else {
                 normal.cost = f64::INFINITY;
                 continue;
             };
@@ -137,7 +137,7 @@ impl FixedProblem<9> for RayHomographyProblem<'_> {
     fn cost(&self, homography: &Matrix3<f64>) -> f64 {
         let mut total = 0.0;
         for (index, root) in self.used.iter() {
-            let error_sq = self.seen2[index].error_sq(&(homography * self.rays1[index]));
+            let error_sq = self.observations2[index].error_sq(&(homography * self.rays1[index]));
             if error_sq.is_infinite() {
                 return f64::INFINITY;
             }
@@ -210,13 +210,16 @@ pub fn estimate_homography_calibrated(
         let signed = if is_in_front { of_rays } else { -of_rays };
         return Ok(report.map(|_| signed / signed.norm()));
     }
-    let ObservedMatches { matches, seen } = ObservedMatches::new(pixels1, pixels2, cameras)?;
+    let ObservedMatches {
+        matches,
+        observations,
+    } = ObservedMatches::new(pixels1, pixels2, cameras)?;
     matches.at_least(4, "a homography of rays")?;
-    let [seen1, seen2] = seen;
+    let [observations1, observations2] = observations;
     let estimator = RayHomographyEstimator {
         matches,
-        rays1: seen1.iter().map(Observation::ray).collect(),
-        seen2,
+        rays1: observations1.iter().map(Observation::ray).collect(),
+        observations2,
     };
     ransac(estimator, options, monitor)
 }
@@ -251,25 +254,26 @@ mod tests {
         let mut random = Random::new(seed);
         let motion =
             RigidTransform::new(Vector3::new(-0.4, 0.1, 0.2), Vector3::new(0.1, 0.3, -0.2));
-        let mut see = |x: &Point3<f64>, off_px: f64| -> Option<Point2<f64>> {
-            let seen = camera.project(x).ok()?;
-            let is_inside = seen.iter().all(|x| (0.0..800.0).contains(x));
-            is_inside.then(|| seen + Vector2::from_fn(|_, _| off_px * random.normal()))
+        let mut observe = |x: &Point3<f64>, off_px: f64| -> Option<Point2<f64>> {
+            let projected = camera.project(x).ok()?;
+            let is_inside = projected.iter().all(|x| (0.0..800.0).contains(x));
+            is_inside.then(|| projected + Vector2::from_fn(|_, _| off_px * random.normal()))
         };
         let mut places = Random::new(seed + 1);
-        let mut seen = [Vec::new(), Vec::new()];
-        while seen[0].len() < num {
+        let mut projected = [Vec::new(), Vec::new()];
+        while projected[0].len() < num {
             let x = Point3::new(3.0 * places.normal(), 3.0 * places.normal(), 1.5);
-            let is_wrong = seen[0].len().is_multiple_of(4);
+            let is_wrong = projected[0].len().is_multiple_of(4);
             let off_px = if is_wrong { 60.0 } else { sigma_px };
-            if let (Some(one), Some(two)) = (see(&x, sigma_px), see(&(motion * x), off_px)) {
-                seen[0].push(one);
-                seen[1].push(two);
+            if let (Some(one), Some(two)) = (observe(&x, sigma_px), observe(&(motion * x), off_px))
+            {
+                projected[0].push(one);
+                projected[1].push(two);
             }
         }
         let rotation = motion.rotation.to_rotation_matrix().into_inner();
         let h = rotation + motion.translation.vector * Vector3::z().transpose() / 1.5;
-        (seen, h / h.norm())
+        (projected, h / h.norm())
     }
 
     #[test]
@@ -292,16 +296,16 @@ mod tests {
     #[test]
     fn derivatives_are_differences() {
         let (pixels, truth) = wall(&fisheye(), 12, 0.5, 3);
-        let seen = pixels.map(|pixels| -> Vec<_> {
+        let observed = pixels.map(|pixels| -> Vec<_> {
             let observe = |pixel| fisheye().observe(pixel).unwrap();
             pixels.iter().map(observe).collect()
         });
-        let rays1: Vec<_> = seen[0].iter().map(Observation::ray).collect();
+        let rays1: Vec<_> = observed[0].iter().map(Observation::ray).collect();
         for i in (0..12usize).filter(|i| i % 4 != 0) {
             let used = [i];
             let problem = RayHomographyProblem {
                 rays1: &rays1,
-                seen2: &seen[1],
+                observations2: &observed[1],
                 used: Subset::alike(&used),
                 loss: RobustLoss::Trivial,
             };

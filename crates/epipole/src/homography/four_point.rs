@@ -132,9 +132,9 @@ mod tests {
                 if !(0.1..=10.0).contains(&depth) || x2.z <= 0.0 {
                     continue;
                 }
-                let seen = Point2::new(x2.x / x2.z, x2.y / x2.z);
-                if count < 4 && seen.x.abs() < reach && seen.y.abs() < reach {
-                    (p1[count], p2[count]) = (Point2::new(x1.x, x1.y), seen);
+                let projected = Point2::new(x2.x / x2.z, x2.y / x2.z);
+                if count < 4 && projected.x.abs() < reach && projected.y.abs() < reach {
+                    (p1[count], p2[count]) = (Point2::new(x1.x, x1.y), projected);
                     count += 1;
                 }
             }

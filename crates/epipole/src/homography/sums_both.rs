@@ -102,9 +102,9 @@ dispatched! {
                 let (u, v) = (du + u2[l], dv + v2[l]);
                 let x = [u1[l] * z, v1[l] * z, z];
                 let rest = dv - t[l] * du;
-                let (alone1, pull2) = (w1[l] * du, w2[l] * rest);
-                total[l] += alone1 * du + pull2 * rest;
-                let pull1 = alone1 - t[l] * pull2;
+                let (own1, pull2) = (w1[l] * du, w2[l] * rest);
+                total[l] += own1 * du + pull2 * rest;
+                let pull1 = own1 - t[l] * pull2;
                 let uv = -w2[l] * t[l];
                 let uu = w1[l] - uv * t[l];
                 let (u3, v3) = (-(uu * u + uv * v), -(uv * u + w2[l] * v));

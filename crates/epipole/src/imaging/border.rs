@@ -85,10 +85,10 @@ mod tests {
 
     #[test]
     fn a_reflection_wider_than_the_row_folds_back_and_forth() {
-        let seen: Vec<usize> = (-5..8)
+        let indices: Vec<usize> = (-5..8)
             .map(|i| Border::Reflect101.index(i, 3).unwrap())
             .collect();
-        assert_eq!(seen, [1, 0, 1, 2, 1, 0, 1, 2, 1, 0, 1, 2, 1]);
+        assert_eq!(indices, [1, 0, 1, 2, 1, 0, 1, 2, 1, 0, 1, 2, 1]);
     }
 
     #[test]

@@ -122,8 +122,8 @@ mod tests {
         ] {
             assert!(correlate(&image, &kernel, Border::Replicate, &mut ()).is_err());
         }
-        let odd = GrayImage32::from_pixel(3, 3, image::Luma([f32::INFINITY]));
-        assert!(correlate(&image, &odd, Border::Replicate, &mut ()).is_err());
+        let invalid = GrayImage32::from_pixel(3, 3, image::Luma([f32::INFINITY]));
+        assert!(correlate(&image, &invalid, Border::Replicate, &mut ()).is_err());
         let dot = GrayImage32::from_pixel(1, 1, image::Luma([1.0]));
         let empty = correlate(&GrayImage32::new(0, 5), &dot, Border::Reflect101, &mut ());
         assert_eq!(empty.unwrap().dimensions(), (0, 5));

@@ -264,9 +264,9 @@ mod tests {
         {
             // The direction of a tiny gradient depends on its last bit.
             if *size > 1e-3 {
-                let turn = (got - want).abs();
+                let difference = (got - want).abs();
                 assert!(
-                    turn.min(std::f32::consts::TAU - turn) < 1e-4,
+                    difference.min(std::f32::consts::TAU - difference) < 1e-4,
                     "{got} {want}"
                 );
             }

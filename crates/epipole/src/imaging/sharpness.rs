@@ -36,7 +36,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn photographs_that_are_too_small_have_none() {
+    fn images_that_are_too_small_have_none() {
         for (width, height) in [(1, 1), (2, 1), (0, 0), (5, 3)] {
             assert_eq!(sharpness(&GrayImage32::new(width, height)), 0.0);
         }

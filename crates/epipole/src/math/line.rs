@@ -117,7 +117,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn normal_turns_from_u_towards_v() {
+    fn normal_rotates_from_u_towards_v() {
         let line = Line2::through(&Point2::new(0.0, 0.0), &Point2::new(1.0, 1.0)).unwrap();
         assert!(line.signed_distance(&Point2::new(0.0, 1.0)) > 0.0);
         assert!((line.angle_rad() - core::f64::consts::FRAC_PI_4).abs() < 1e-15);

@@ -30,7 +30,7 @@ pub(crate) fn for_each(
         let n = next.fetch_add(1, Ordering::Relaxed);
         (n < count && !canceled.load(Ordering::Relaxed)).then_some(n)
     };
-    let mut own_share = || {
+    let mut own_fraction = || {
         while let Some(n) = take() {
             let [from, to] = [n, n + 1].map(|n| n as f32 / count as f32);
             let mut reporter = Reporter::of_caller(stage, &mut *monitor, &canceled, from..to);
@@ -52,10 +52,10 @@ pub(crate) fn for_each(
                     }
                 });
             }
-            own_share()
+            own_fraction()
         });
     }
-    own_share()
+    own_fraction()
 }
 
 /// Calls `f(index of the first item, chunk)` for consecutive chunks of `chunk_len` items, such as
@@ -127,23 +127,23 @@ pub(crate) struct Reporter<'a> {
     stage: Stage,
     monitor: Option<&'a mut dyn Monitor>,
     canceled: &'a AtomicBool,
-    shares: Range<f32>,
+    fractions: Range<f32>,
 }
 
 impl<'a> Reporter<'a> {
-    /// Creates the reporter of the caller's thread, whose progress goes from `shares[0]` to
-    /// `shares[1]`.
+    /// Creates the reporter of the caller's thread, whose progress goes from `fractions[0]` to
+    /// `fractions[1]`.
     pub(crate) fn of_caller(
         stage: Stage,
         monitor: &'a mut dyn Monitor,
         canceled: &'a AtomicBool,
-        shares: Range<f32>,
+        fractions: Range<f32>,
     ) -> Self {
         Self {
             stage,
             monitor: Some(monitor),
             canceled,
-            shares,
+            fractions,
         }
     }
 
@@ -157,7 +157,7 @@ impl<'a> Reporter<'a> {
             stage,
             monitor: None,
             canceled,
-            shares: 0.0..1.0,
+            fractions: 0.0..1.0,
         }
     }
 
@@ -169,9 +169,10 @@ impl<'a> Reporter<'a> {
     pub(crate) fn report(&mut self, done: usize, all: usize) -> Result<()> {
         if let (Some(monitor), true) = (&mut self.monitor, done.is_multiple_of(8)) {
             let part = done as f32 / all.max(1) as f32;
-            let share = self.shares.start + (self.shares.end - self.shares.start) * part;
+            let fraction =
+                self.fractions.start + (self.fractions.end - self.fractions.start) * part;
             let stage = self.stage;
-            if monitor.report(Status { stage, share }).is_break() {
+            if monitor.report(Status { stage, fraction }).is_break() {
                 self.canceled.store(true, Ordering::Relaxed);
             }
         }
@@ -197,8 +198,8 @@ mod tests {
             let mut firsts = vec![0; count];
             let mut last = 0.0;
             let mut watch = |status: Status| {
-                assert!(status.share >= last && status.share < 1.0);
-                last = status.share;
+                assert!(status.fraction >= last && status.fraction < 1.0);
+                last = status.fraction;
                 ControlFlow::Continue(())
             };
             for_each_chunk(&mut firsts, 3, Stage::Filtering, &mut watch, |first, c| {

@@ -32,13 +32,13 @@ mod tests {
     use crate::math::random::Random;
 
     #[test]
-    fn equal_things_stay_as_they_are() {
+    fn equal_items_keep_their_order() {
         let mut random = Random::new(3);
         for len in [0, 1, 2, 19, 21, 500] {
-            let things: Vec<usize> = (0..len).map(|_| random.below(7)).collect();
-            let order = order_by(len, &mut |a, b| things[b].cmp(&things[a]));
+            let items: Vec<usize> = (0..len).map(|_| random.below(7)).collect();
+            let order = order_by(len, &mut |a, b| items[b].cmp(&items[a]));
             let mut known: Vec<usize> = (0..len).collect();
-            known.sort_by_key(|&i| std::cmp::Reverse(things[i]));
+            known.sort_by_key(|&i| std::cmp::Reverse(items[i]));
             assert_eq!(order, known);
         }
     }

@@ -63,10 +63,10 @@ pub fn estimate_depth_maps(
     let mut surfaces = Vec::new();
     let mut done = 0.0;
     for (number, plan) in schedule.iter().enumerate() {
-        let share = ESTIMATED * work(plan) / total;
-        let mut part = Part::new(monitor, done, done + share);
+        let fraction = ESTIMATED * work(plan) / total;
+        let mut part = Part::new(monitor, done, done + fraction);
         surfaces = plan.run(views, surfaces, (number, options), &mut part)?;
-        done += share;
+        done += fraction;
     }
     let mut maps = Vec::new();
     for (view, surface) in views.iter().zip(surfaces) {
@@ -125,8 +125,8 @@ impl LevelPlan {
         }
         let mut surfaces = Vec::new();
         for photo in 0..views.len() {
-            let share = |photo: usize| photo as f32 / views.len() as f32;
-            let mut part = Part::new(monitor, share(photo), share(photo + 1));
+            let fraction = |photo: usize| photo as f32 / views.len() as f32;
+            let mut part = Part::new(monitor, fraction(photo), fraction(photo + 1));
             let matching = matching(views, &levels, &before, photo, options);
             let pass = Pass {
                 matching: &matching,
@@ -143,10 +143,10 @@ impl LevelPlan {
         before: Option<&Surface>,
         monitor: &mut dyn Monitor,
     ) -> Result<Surface> {
-        let share = |done: usize| done as f32 / self.num_passes() as f32;
-        let mut field = pass.start(before, &mut Part::new(monitor, 0.0, share(1)))?;
+        let fraction = |done: usize| done as f32 / self.num_passes() as f32;
+        let mut field = pass.start(before, &mut Part::new(monitor, 0.0, fraction(1)))?;
         for number in 0..self.num_rounds {
-            let mut part = Part::new(monitor, share(number + 1), share(number + 2));
+            let mut part = Part::new(monitor, fraction(number + 1), fraction(number + 2));
             let round = self.round(pass.matching, number);
             pass.round(&mut field, (number as u64, &round), &mut part)?;
         }
@@ -239,8 +239,8 @@ fn keep_confirmed(
 ) -> Result<()> {
     let mut counts = Vec::new();
     for photo in 0..views.len() {
-        let share = |photo: usize| photo as f32 / views.len() as f32;
-        let mut part = Part::new(monitor, share(photo), share(photo + 1));
+        let fraction = |photo: usize| photo as f32 / views.len() as f32;
+        let mut part = Part::new(monitor, fraction(photo), fraction(photo + 1));
         counts.push(confirmations(views, maps, (photo, options), &mut part)?);
     }
     for ((map, counts), view) in maps.iter_mut().zip(counts).zip(views) {

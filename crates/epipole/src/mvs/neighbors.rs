@@ -97,9 +97,9 @@ impl Shared {
         let angle_deg = libm::acos(cosine).to_degrees();
         self.num_points += 1;
         self.num_angled += usize::from(angle_deg >= min_angle_deg);
-        let share = (angle_deg / GOOD_ANGLE_DEG).min(1.0);
+        let angle_ratio = (angle_deg / GOOD_ANGLE_DEG).min(1.0);
         let excess = (WIDE_ANGLE_DEG / angle_deg.max(WIDE_ANGLE_DEG)).min(1.0);
-        let weight = share * share * excess * excess;
+        let weight = angle_ratio * angle_ratio * excess * excess;
         let ratio = a.pixel_size / b.pixel_size;
         self.scores[0] += weight * resolution_weight(ratio);
         self.scores[1] += weight * resolution_weight(1.0 / ratio);
@@ -118,14 +118,14 @@ fn resolution_weight(ratio: f64) -> f64 {
 /// Returns the depth range of a photo's points, with a margin; `None` if it sees none.
 pub(super) fn depth_range(reconstruction: &Reconstruction, photo: usize) -> Option<[f64; 2]> {
     let camera = reconstruction.cameras[photo].as_ref()?;
-    let is_seen = |point: &&crate::sfm::ScenePoint| {
+    let is_shared = |point: &&crate::sfm::ScenePoint| {
         point
             .track
             .iter()
             .any(|element| element.image as usize == photo)
     };
-    let seen = reconstruction.points.iter().filter(is_seen);
-    let mut depths: Vec<f64> = seen
+    let shared = reconstruction.points.iter().filter(is_shared);
+    let mut depths: Vec<f64> = shared
         .map(|point| (camera.cam_from_world * point.position).z)
         .filter(|depth| *depth > 0.0 && depth.is_finite())
         .collect();

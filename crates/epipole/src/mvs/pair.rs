@@ -102,7 +102,7 @@ mod tests {
     use nalgebra::{Point2, Point3, Vector3};
 
     #[test]
-    fn pixels_of_a_plane_go_where_the_other_camera_sees_them() {
+    fn pixels_of_a_plane_map_to_their_projections() {
         let k = Intrinsics::new(500.0, 510.0, 320.0, 240.0).unwrap();
         let camera = Camera::pinhole(k, 640, 480);
         let from = PosedCamera {

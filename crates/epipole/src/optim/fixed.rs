@@ -124,9 +124,9 @@ fn add_products(sums: &mut [f64], directions: &[[f64; 9]], columns: &[[f64; 9]])
     for (sums, direction) in sums.chunks_exact_mut(directions.len()).zip(directions) {
         // Adding to −0 changes nothing.
         let mut moved = [-0.0; 9];
-        for (share, column) in direction.iter().zip(columns) {
+        for (factor, column) in direction.iter().zip(columns) {
             for (sum, entry) in moved.iter_mut().zip(column) {
-                *sum += entry * share;
+                *sum += entry * factor;
             }
         }
         for (sum, direction) in sums.iter_mut().zip(directions) {

@@ -185,8 +185,8 @@ pub(crate) fn minimize<S: System>(
     let mut history = Vec::new();
     let mut visit = |iteration: &Iteration| {
         history.push(*iteration);
-        let share = (iteration.index as f32 / most).min(1.0);
-        progress::report(monitor, Stage::Refinement, share)
+        let fraction = (iteration.index as f32 / most).min(1.0);
+        progress::report(monitor, Stage::Refinement, fraction)
     };
     let report = minimize_visiting(system, parameters, options, &mut visit)?;
     Ok(LmReport { history, ..report })

@@ -19,7 +19,7 @@ const SAME: f64 = 1.15;
 const LEAST_PX: f64 = 0.05;
 
 /// The threshold is bounded so that at most this fraction of wrong data is within it.
-const MOST_CHANCE: f64 = 0.1;
+const MAX_PROBABILITY: f64 = 0.1;
 
 /// Multiples of the standard deviation that contain 99 % of the errors, in one dimension and in
 /// two.
@@ -60,7 +60,7 @@ pub(super) fn ransac_by_noise<M: Clone>(
     let mut search = Search {
         options,
         background,
-        most_px: background.reach_px(MOST_CHANCE).max(LEAST_PX),
+        most_px: background.reach_px(MAX_PROBABILITY).max(LEAST_PX),
         monitor,
         runs: 0,
         iterations: 0,
@@ -82,12 +82,12 @@ pub(super) fn ransac_by_noise<M: Clone>(
             max_error_px = suited.max_error_px;
             model = Some(suited.report.model.clone());
             let known = best.as_ref();
-            let settled = known.is_some_and(|known| same(known.max_error_px, max_error_px))
+            let has_converged = known.is_some_and(|known| same(known.max_error_px, max_error_px))
                 || same(before_px, max_error_px);
             if known.is_none_or(|known| suited.log10_false_alarms < known.log10_false_alarms) {
                 best = Some(suited);
             }
-            if settled {
+            if has_converged {
                 break;
             }
         }
@@ -127,9 +127,9 @@ impl Search<'_> {
         }
         // The runs from all initial thresholds, and a last one.
         let most = (STARTS_PX.len() * ROUNDS + 1) as f32;
-        let share = self.runs as f32 / most;
+        let fraction = self.runs as f32 / most;
         self.runs += 1;
-        let mut part = Part::new(&mut *self.monitor, share, self.runs as f32 / most);
+        let mut part = Part::new(&mut *self.monitor, fraction, self.runs as f32 / most);
         match run_to_end(run, &mut part) {
             Err(Error::Canceled) => Err(Error::Canceled),
             Ok(report) => {
@@ -177,7 +177,7 @@ impl Search<'_> {
             problem.data.len(),
             problem.sample_size,
             problem.max_models,
-            background.chance(max_error_px),
+            background.random_inlier_probability(max_error_px),
         );
         Suited {
             report,

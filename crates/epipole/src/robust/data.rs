@@ -1,6 +1,6 @@
 //! The data of a robust problem.
 
-use super::{MatchSet, Unique, chance_near_line, chance_near_point};
+use super::{MatchSet, Unique, probability_near_line, probability_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -94,15 +94,19 @@ impl<'a> Data<'a> {
     /// Returns the probability that an unrelated data point is within the threshold, if known.
     ///
     /// * `codimension`: 1 for distances from lines, 2 for distances from points
-    pub(crate) fn chance(&self, codimension: usize, max_error_px: f64) -> Option<f64> {
+    pub(crate) fn random_inlier_probability(
+        &self,
+        codimension: usize,
+        max_error_px: f64,
+    ) -> Option<f64> {
         Some(match (*self, codimension) {
-            (Self::Matches(matches), 1) => matches.chance_near_lines(max_error_px),
-            (Self::Matches(matches), _) => matches.chance_near_point2(max_error_px),
+            (Self::Matches(matches), 1) => matches.probability_near_lines(max_error_px),
+            (Self::Matches(matches), _) => matches.probability_near_point2(max_error_px),
             (Self::Pixels { pixels, .. }, codimension) => {
                 let coordinates = [0, 1].map(|axis| pixels.iter().map(|p| p[axis]).collect());
                 match codimension {
-                    1 => chance_near_line(coordinates, max_error_px),
-                    _ => chance_near_point(coordinates, max_error_px),
+                    1 => probability_near_line(coordinates, max_error_px),
+                    _ => probability_near_point(coordinates, max_error_px),
                 }
             }
             (Self::Other(_), _) => return None,

@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn matches_bring_their_votes_repetitions_and_chances() {
+    fn matches_provide_votes_repetitions_and_probabilities() {
         // Twenty matches move by (7, 2); thirty more share one pixel, and one is repeated forty
         // times.
         let at = |i: usize| Point2::new((i * 37 % 640) as f64, (i * 71 % 480) as f64);
@@ -232,11 +232,14 @@ mod tests {
         // Matches with the same pixel weigh as much as two, however many they are.
         let support = shifts.support(&shift, 1.0, f64::INFINITY);
         assert!(support.num_inliers == 20 && (support.cost - 3.0).abs() < 1e-12);
-        let chance = data.chance(2, 1.0).unwrap();
-        assert!(chance > 0.0 && chance < 1e-4, "{chance}");
+        let random_inlier_probability = data.random_inlier_probability(2, 1.0).unwrap();
+        assert!(
+            random_inlier_probability > 0.0 && random_inlier_probability < 1e-4,
+            "{random_inlier_probability}"
+        );
         let report = ransac(shifts, &RansacOptions::default(), &mut ()).unwrap();
         assert_eq!(report.model, shift);
         assert_eq!((report.inliers.len(), report.num_inliers), (90, 20));
-        assert!(!report.could_be_chance());
+        assert!(!report.could_be_random());
     }
 }

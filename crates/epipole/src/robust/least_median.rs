@@ -107,8 +107,8 @@ pub fn least_median<E: Estimator>(
     let mut errors_sq = vec![0.0; num_data];
     let mut best: Option<(f64, E::Model)> = None;
     for k in 0..options.num_samples {
-        let share = k as f32 / options.num_samples as f32;
-        report(monitor, Stage::RobustEstimation, share)?;
+        let fraction = k as f32 / options.num_samples as f32;
+        report(monitor, Stage::RobustEstimation, fraction)?;
         sampler.draw(&mut random, &mut sample);
         models.clear();
         estimator.fit_sample(&sample, &mut models);

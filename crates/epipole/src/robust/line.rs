@@ -65,12 +65,12 @@ fn fit(num_points: usize, point: impl Fn(usize) -> Point2<f64>) -> Result<Line2>
         what: "a line through points",
         why,
     };
-    let share = 1.0 / num_points as f64;
+    let weight = 1.0 / num_points as f64;
     let (mut mean_u, mut mean_v) = (0.0, 0.0);
     for i in 0..num_points {
         let p = point(i);
-        mean_u += p.x * share;
-        mean_v += p.y * share;
+        mean_u += p.x * weight;
+        mean_v += p.y * weight;
     }
     // Deviations relative to the largest: squares of huge or tiny coordinates stay finite.
     let reach = (0..num_points).fold(0.0_f64, |reach, i| {
@@ -233,8 +233,8 @@ mod tests {
                 .sum()
         };
         let best = fit_line_total_least_squares(&cloud).unwrap();
-        for (turn, shift) in [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-2), (0.0, -1e-2)] {
-            let (sin, cos) = libm::sincos(turn);
+        for (angle_rad, shift) in [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-2), (0.0, -1e-2)] {
+            let (sin, cos) = libm::sincos(angle_rad);
             let (a, b) = (best.a * cos - best.b * sin, best.a * sin + best.b * cos);
             let other = Line2 {
                 a,

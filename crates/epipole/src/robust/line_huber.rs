@@ -41,10 +41,10 @@ pub fn fit_line_huber(points: &[Point2<f64>], width_px: f64) -> Result<Line2> {
     let loss = RobustLoss::Huber { width: width_px };
     loss.check()?;
     let start = fit_line_total_least_squares(points)?;
-    let share = 1.0 / points.len() as f64;
+    let weight = 1.0 / points.len() as f64;
     let middle = points
         .iter()
-        .map(|p| p.coords * share)
+        .map(|p| p.coords * weight)
         .sum::<Vector2<f64>>();
     let problem = HuberLine {
         points,
@@ -70,8 +70,8 @@ impl FixedProblem<2> for HuberLine<'_> {
     fn accumulate(&self, line: &Line2, normal: &mut NormalEquations<2>) {
         for point in self.points {
             let away = point.coords - self.middle;
-            let turning = line.a * away.y - line.b * away.x;
-            let jacobian = SVector::<f64, 2>::new(turning, 1.0);
+            let by_angle = line.a * away.y - line.b * away.x;
+            let jacobian = SVector::<f64, 2>::new(by_angle, 1.0);
             normal.add_scalar(line.signed_distance(point), &jacobian, &self.loss);
         }
     }
@@ -124,9 +124,9 @@ mod tests {
                 loss,
             };
             let best = problem.cost(&line);
-            for (turn, shift) in [(1e-4, 0.0), (-1e-4, 0.0), (0.0, 0.03), (0.0, -0.03)] {
-                let other = problem.plus(&line, &SVector::<f64, 2>::new(turn, shift));
-                assert!(problem.cost(&other) > best, "{seed} {turn} {shift}");
+            for (angle_rad, shift) in [(1e-4, 0.0), (-1e-4, 0.0), (0.0, 0.03), (0.0, -0.03)] {
+                let other = problem.plus(&line, &SVector::<f64, 2>::new(angle_rad, shift));
+                assert!(problem.cost(&other) > best, "{seed} {angle_rad} {shift}");
             }
         }
     }

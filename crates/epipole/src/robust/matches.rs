@@ -1,6 +1,6 @@
 //! Matches between two images, in a layout for fast scoring.
 
-use super::{Unique, chance_near_line, chance_near_point};
+use super::{Unique, probability_near_line, probability_near_point};
 use crate::{Error, Result};
 use nalgebra::Point2;
 
@@ -86,15 +86,15 @@ impl MatchSet {
             let is_near = values.iter().all(|x| x.abs() <= FARTHEST_PX);
             (is_near && is_usable(i)).then_some(values)
         });
-        let gather = |coordinate: &dyn Fn(usize) -> f64| {
+        let collect = |coordinate: &dyn Fn(usize) -> f64| {
             unique
                 .first_occurrences()
                 .iter()
                 .map(|&i| coordinate(i))
                 .collect()
         };
-        let (u1, v1) = (gather(&|i| pixels1[i].x), gather(&|i| pixels1[i].y));
-        let (u2, v2) = (gather(&|i| pixels2[i].x), gather(&|i| pixels2[i].y));
+        let (u1, v1) = (collect(&|i| pixels1[i].x), collect(&|i| pixels1[i].y));
+        let (u2, v2) = (collect(&|i| pixels2[i].x), collect(&|i| pixels2[i].y));
         Ok(Self {
             crowds: Crowds::new([[&u1, &v1], [&u2, &v2]]),
             u1,
@@ -160,18 +160,18 @@ impl MatchSet {
     }
 
     /// Returns the probability that a random pixel of image 2 is within `radius_px` of a given one.
-    pub(crate) fn chance_near_point2(&self, radius_px: f64) -> f64 {
-        chance_near_point([self.u2.clone(), self.v2.clone()], radius_px)
+    pub(crate) fn probability_near_point2(&self, radius_px: f64) -> f64 {
+        probability_near_point([self.u2.clone(), self.v2.clone()], radius_px)
     }
 
     /// Returns the probability that random pixels of both images have a smaller Sampson error than
     /// this.
     ///
     /// If lines move equally in both images, the error is the distance from a line divided by √2.
-    pub(crate) fn chance_near_lines(&self, max_error_px: f64) -> f64 {
+    pub(crate) fn probability_near_lines(&self, max_error_px: f64) -> f64 {
         let distance_px = core::f64::consts::SQRT_2 * max_error_px;
         [[&self.u1, &self.v1], [&self.u2, &self.v2]]
-            .map(|[u, v]| chance_near_line([u.clone(), v.clone()], distance_px))
+            .map(|[u, v]| probability_near_line([u.clone(), v.clone()], distance_px))
             .into_iter()
             .fold(0.0, f64::max)
     }
@@ -207,9 +207,9 @@ impl MatchSet {
             return indices.len();
         };
         let count = |pixel: &Vec<usize>| {
-            let mut seen = vec![false; pixel.len()];
-            indices.iter().for_each(|&i| seen[pixel[i]] = true);
-            seen.into_iter().filter(|&seen| seen).count()
+            let mut is_used = vec![false; pixel.len()];
+            indices.iter().for_each(|&i| is_used[pixel[i]] = true);
+            is_used.into_iter().filter(|&is_used| is_used).count()
         };
         pixels.iter().map(count).min().unwrap_or(0)
     }

@@ -12,10 +12,10 @@
 
 mod budget;
 mod by_noise;
-mod chance;
 mod data;
 mod engine;
 mod estimator;
+mod false_alarms;
 mod least_median;
 mod line;
 mod line_huber;
@@ -30,11 +30,11 @@ mod to_end;
 mod unique;
 
 pub use budget::{num_trials_with_replacement, num_trials_without_replacement};
-pub use chance::log10_false_alarms;
-pub(crate) use chance::{chance_near_line, chance_near_point};
 pub use data::{Data, Support};
 pub use engine::Ransac;
 pub use estimator::{Estimator, Evidence, Problem};
+pub use false_alarms::log10_false_alarms;
+pub(crate) use false_alarms::{probability_near_line, probability_near_point};
 pub use least_median::{LeastMedian, LeastMedianOptions, least_median};
 pub use line::{LineEstimator, fit_line_total_least_squares};
 pub use line_huber::fit_line_huber;

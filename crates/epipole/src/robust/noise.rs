@@ -1,7 +1,7 @@
 //! Noise scale of unknown inliers.
 
 use super::Estimator;
-use super::chance::UNKNOWN_CHANCE;
+use super::false_alarms::UNKNOWN_PROBABILITY;
 
 /// Distribution of the errors of unrelated data.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,15 +9,15 @@ pub(super) struct Background {
     codimension: usize,
     /// Probability that an unrelated data point is within one pixel, extrapolated from small
     /// errors. It grows with the error to the power of `codimension`.
-    chance_of_one_px: f64,
+    probability_within_1px: f64,
 }
 
 impl Background {
     /// Takes the probability of a chance fit from an estimator.
     ///
     /// * `little_px`: an error that few unrelated data points are within
-    /// * `unknown_px`: the error that [`UNKNOWN_CHANCE`] of them are within, for an estimator that
-    ///   does not provide a probability
+    /// * `unknown_px`: the error that [`UNKNOWN_PROBABILITY`] of them are within, for an estimator
+    ///   that does not provide a probability
     pub(super) fn new<E: Estimator + ?Sized>(
         estimator: &E,
         little_px: f64,
@@ -25,11 +25,16 @@ impl Background {
     ) -> Self {
         let problem = estimator.problem();
         let codimension = problem.codimension.clamp(1, 2);
-        let (chance, within_px) = (problem.data.chance(problem.codimension, little_px))
-            .map_or((UNKNOWN_CHANCE, unknown_px), |chance| (chance, little_px));
+        let (random_inlier_probability, within_px) = (problem
+            .data
+            .random_inlier_probability(problem.codimension, little_px))
+        .map_or(
+            (UNKNOWN_PROBABILITY, unknown_px),
+            |random_inlier_probability| (random_inlier_probability, little_px),
+        );
         Self {
             codimension,
-            chance_of_one_px: chance / to_the(codimension, within_px),
+            probability_within_1px: random_inlier_probability / to_the(codimension, within_px),
         }
     }
 
@@ -39,13 +44,13 @@ impl Background {
     }
 
     /// Returns the probability that an unrelated data point is within this error.
-    pub(super) fn chance(&self, error_px: f64) -> f64 {
-        (self.chance_of_one_px * to_the(self.codimension, error_px)).min(1.0)
+    pub(super) fn random_inlier_probability(&self, error_px: f64) -> f64 {
+        (self.probability_within_1px * to_the(self.codimension, error_px)).min(1.0)
     }
 
     /// Returns the error that this fraction of unrelated data points is within.
-    pub(super) fn reach_px(&self, share: f64) -> f64 {
-        let power = share / self.chance_of_one_px;
+    pub(super) fn reach_px(&self, fraction: f64) -> f64 {
+        let power = fraction / self.probability_within_1px;
         if self.codimension == 1 {
             power
         } else {
@@ -60,7 +65,7 @@ impl Background {
             1 => (2.0 / core::f64::consts::PI).sqrt(),
             _ => 0.5,
         };
-        per_scale / (self.chance_of_one_px * to_the(self.codimension, scale_px))
+        per_scale / (self.probability_within_1px * to_the(self.codimension, scale_px))
     }
 }
 
@@ -142,8 +147,8 @@ impl Mixture {
             log_likelihood: f64::NEG_INFINITY,
         };
         for _ in 0..ROUNDS {
-            let share = (found.num_good / num_data).clamp(1e-9, 1.0 - 1e-9);
-            let odds = share / (1.0 - share) * background.contrast(found.scale_px);
+            let ratio = (found.num_good / num_data).clamp(1e-9, 1.0 - 1e-9);
+            let odds = ratio / (1.0 - ratio) * background.contrast(found.scale_px);
             let per_variance = 0.5 / (found.scale_px * found.scale_px);
             let (mut sum, mut sum_sq, mut log_likelihood) = (0.0, 0.0, 0.0);
             for error_sq in errors_sq {
@@ -153,7 +158,7 @@ impl Mixture {
                 sum_sq += good * error_sq;
                 log_likelihood += libm::log1p(odds);
             }
-            found.log_likelihood = log_likelihood + num_data * libm::log1p(-share);
+            found.log_likelihood = log_likelihood + num_data * libm::log1p(-ratio);
             found.num_good = sum;
             let before = found.scale_px;
             let variance = sum_sq / (background.codimension as f64 * sum);

@@ -149,8 +149,8 @@ impl RansacOptions {
     /// ```
     /// use epipole::robust::{RansacOptions, ThresholdKind};
     /// let searching = RansacOptions::default().with_threshold(ThresholdKind::Noise);
-    /// let given = searching.within(1.5);
-    /// assert_eq!((given.threshold, given.max_error_px), (ThresholdKind::Given, 1.5));
+    /// let fixed = searching.within(1.5);
+    /// assert_eq!((fixed.threshold, fixed.max_error_px), (ThresholdKind::Given, 1.5));
     /// ```
     pub fn within(&self, max_error_px: f64) -> Self {
         Self {
@@ -241,7 +241,7 @@ pub struct RansacReport<M> {
 }
 
 /// Decimal logarithm of the expected number of chance models below which support is significant.
-pub(super) const HARDLY_CHANCE: f64 = -2.0;
+pub(super) const MAX_LOG10_FALSE_ALARMS: f64 = -2.0;
 
 impl<M> RansacReport<M> {
     /// Returns whether unrelated data might show as much support by chance, so that the model is
@@ -259,12 +259,12 @@ impl<M> RansacReport<M> {
     /// };
     /// // Random matches; some of them agree nevertheless.
     /// let report = estimate_fundamental(&anywhere(), &anywhere(), &RansacOptions::default(), &mut ())?;
-    /// assert!(report.num_inliers > 7 && report.could_be_chance());
+    /// assert!(report.num_inliers > 7 && report.could_be_random());
     /// # Ok(()) }
     /// ```
-    pub fn could_be_chance(&self) -> bool {
+    pub fn could_be_random(&self) -> bool {
         self.log10_false_alarms
-            .is_some_and(|log| log > HARDLY_CHANCE)
+            .is_some_and(|log| log > MAX_LOG10_FALSE_ALARMS)
     }
 
     /// Converts the model of the report.

@@ -113,17 +113,20 @@ mod tests {
     fn uniform_samples_are_different_and_cover_all() {
         let mut sampler = Sampler::new(SamplerKind::Uniform, 9, 4, 9000);
         let (mut random, mut sample) = (Random::new(1), Vec::new());
-        let mut seen = [0; 9];
+        let mut counts = [0; 9];
         for _ in 0..9000 {
             sampler.draw(&mut random, &mut sample);
             assert_eq!(sample.len(), 4);
             for (place, &index) in sample.iter().enumerate() {
                 assert!(!sample[..place].contains(&index));
-                seen[index] += 1;
+                counts[index] += 1;
             }
         }
         // Each index is expected 4000 times, with a standard deviation of 47.
-        assert!(seen.iter().all(|&n| (3700..4300).contains(&n)), "{seen:?}");
+        assert!(
+            counts.iter().all(|&n| (3700..4300).contains(&n)),
+            "{counts:?}"
+        );
     }
 
     #[test]
@@ -154,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_of_everything() {
+    fn a_sample_of_all_data() {
         for kind in [SamplerKind::Uniform, SamplerKind::Prosac] {
             let mut sampler = Sampler::new(kind, 3, 3, 10);
             let (mut random, mut sample) = (Random::new(1), Vec::new());

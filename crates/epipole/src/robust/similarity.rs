@@ -83,12 +83,12 @@ fn fit(
     num_matches: usize,
     pair: impl Fn(usize) -> (Point2<f64>, Point2<f64>),
 ) -> Option<PlaneSimilarity> {
-    let share = 1.0 / num_matches as f64;
+    let weight = 1.0 / num_matches as f64;
     let (mut m1, mut m2) = (Point2::origin(), Point2::origin());
     for i in 0..num_matches {
         let (p1, p2) = pair(i);
-        m1 += p1.coords * share;
-        m2 += p2.coords * share;
+        m1 += p1.coords * weight;
+        m2 += p2.coords * weight;
     }
     let (mut size_sq, mut real, mut imaginary) = (0.0, 0.0, 0.0);
     for i in 0..num_matches {

@@ -17,13 +17,13 @@ pub(super) fn run_to_end<E: Estimator>(
     mut run: Ransac<E>,
     monitor: &mut dyn Monitor,
 ) -> Result<RansacReport<E::Model>> {
-    let mut share = 0.0_f32;
+    let mut fraction = 0.0_f32;
     while let Step::Trial(trial) = run.step() {
         if trial.iteration % SAMPLES_PER_REPORT == 1 {
             // A better model can require more samples than the previous one: progress never
             // decreases.
-            share = share.max(run.iterations() as f32 / run.expected_iterations() as f32);
-            report(monitor, Stage::RobustEstimation, share)?;
+            fraction = fraction.max(run.iterations() as f32 / run.expected_iterations() as f32);
+            report(monitor, Stage::RobustEstimation, fraction)?;
         }
     }
     run.finish()

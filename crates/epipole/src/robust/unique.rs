@@ -75,19 +75,19 @@ impl Unique {
     /// [`Error::TooFew`] for fewer usable data than `needed`, [`Error::TooFewDistinct`] if only
     /// repetitions reach that number.
     pub fn at_least(&self, needed: usize, what: &'static str) -> Result<()> {
-        let given = self.place.len() - self.num_left_out();
+        let total = self.place.len() - self.num_left_out();
         match self.len() {
             got if got >= needed => Ok(()),
-            got if given >= needed => Err(Error::TooFewDistinct {
+            got if total >= needed => Err(Error::TooFewDistinct {
                 what,
                 needed,
                 got,
-                given,
+                total,
             }),
             _ => Err(Error::TooFew {
                 what,
                 needed,
-                got: given,
+                got: total,
             }),
         }
     }
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn small_whole_numbers_and_their_repetitions_are_told_apart() {
+    fn small_whole_numbers_and_their_repetitions_are_distinguished() {
         let datum = |i: usize| [(i % 40) as f64, (i / 40 % 30) as f64];
         let unique = Unique::new(2500, datum);
         assert!(unique.first_occurrences().iter().copied().eq(0..1200));
@@ -139,13 +139,13 @@ mod tests {
         let data = [[1.0], [1.0], [2.0], [f64::NAN]];
         let unique = Unique::of_usable(4, |i| (!data[i][0].is_nan()).then_some(data[i]));
         assert_eq!(unique.at_least(2, "a fit"), Ok(()));
-        let (what, given) = ("a fit", 3);
+        let (what, total) = ("a fit", 3);
         let (needed, got) = (3, 2);
         let repeated = Error::TooFewDistinct {
             what,
             needed,
             got,
-            given,
+            total,
         };
         assert_eq!(unique.at_least(needed, what), Err(repeated));
         let (needed, got) = (4, 3);

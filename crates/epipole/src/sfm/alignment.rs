@@ -369,10 +369,10 @@ mod tests {
 
     #[test]
     fn rotations_between_frames_are_compared() {
-        let turn =
+        let rotation =
             |angle: f64| RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, angle, 0.0));
-        let truth = [turn(0.0), turn(0.1), turn(0.2)];
-        let estimated = [turn(0.0), turn(0.12), turn(0.2)];
+        let truth = [rotation(0.0), rotation(0.1), rotation(0.2)];
+        let estimated = [rotation(0.0), rotation(0.12), rotation(0.2)];
         let error = relative_pose_error(&estimated, &truth, 1).unwrap();
         assert!((error.rotation_deg.max - 0.02f64.to_degrees()).abs() < 1e-9);
         let error = relative_pose_error(&estimated, &truth, 2).unwrap();

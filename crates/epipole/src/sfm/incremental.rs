@@ -1,7 +1,7 @@
 //! Incremental structure from motion: starts from two images, registers the others one by one.
 
 use super::builder::Builder;
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check};
+use super::options::{OF_IMAGES, SfmInput, SfmOptions, check};
 use super::reconstruction::Reconstruction;
 use super::tracks::{PairMatches, build_tracks};
 use super::two_view_start::{VerifiedPair, verify_pairs};
@@ -100,7 +100,7 @@ pub struct SfmResult {
 /// use epipole::sfm::{SfmInput, SfmOptions, reconstruct};
 /// use std::ops::ControlFlow;
 /// let mut show = |status: epipole::progress::Status| {
-///     println!("{}, {:.0} %", status.stage.words(), 100.0 * status.share);
+///     println!("{}, {:.0} %", status.stage.words(), 100.0 * status.fraction);
 ///     ControlFlow::Continue(())
 /// };
 /// let nothing = SfmInput::default();
@@ -140,7 +140,7 @@ pub struct IncrementalReconstruction {
     phase: Phase,
     components: Vec<Reconstruction>,
     steps: Vec<SfmStep>,
-    share: f32,
+    fraction: f32,
 }
 
 /// Phase of the reconstruction.
@@ -171,7 +171,7 @@ impl IncrementalReconstruction {
     /// As [`reconstruct`].
     pub fn new(input: &SfmInput, options: &SfmOptions, monitor: &mut dyn Monitor) -> Result<Self> {
         let images = &input.images;
-        let cameras = check(OF_PHOTOGRAPHS, images, &input.cameras, options)?;
+        let cameras = check(OF_IMAGES, images, &input.cameras, options)?;
         let counts: Vec<usize> = images.iter().map(|image| image.keypoints.len()).collect();
         // Find invalid indices before the work begins.
         build_tracks(&counts, &input.pairs)?;
@@ -186,7 +186,7 @@ impl IncrementalReconstruction {
             phase: Phase::Start,
             components: Vec::new(),
             steps: Vec::new(),
-            share: VERIFIED,
+            fraction: VERIFIED,
         })
     }
 
@@ -215,8 +215,8 @@ impl IncrementalReconstruction {
             let num_registered = self.builder.num_registered();
             let whole = self.builder.images.len().max(num_registered);
             let grown = num_registered as f32 / whole as f32;
-            self.share = (VERIFIED + (1.0 - VERIFIED) * grown).clamp(self.share, 1.0);
-            report(monitor, stage, self.share)?;
+            self.fraction = (VERIFIED + (1.0 - VERIFIED) * grown).clamp(self.fraction, 1.0);
+            report(monitor, stage, self.fraction)?;
             return Ok(Some(step));
         }
     }
@@ -246,7 +246,7 @@ impl IncrementalReconstruction {
     }
 
     fn start(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
-        let mut part = Part::new(monitor, self.share, self.share);
+        let mut part = Part::new(monitor, self.fraction, self.fraction);
         let Some(images) = self.builder.start(&self.verified, &mut part)? else {
             self.phase = Phase::Done;
             return Ok(None);
@@ -278,17 +278,17 @@ impl IncrementalReconstruction {
             };
             return Ok(None);
         };
-        report(monitor, Stage::Registration, self.share)?;
+        report(monitor, Stage::Registration, self.fraction)?;
         if builder.register(image).is_none() {
             failed_with[image] = builder.visible(image).len();
             return Ok(None);
         }
         builder.triangulate_of(Some(image));
         let num_registered = builder.num_registered();
-        let mut part = Part::new(monitor, self.share, self.share);
+        let mut part = Part::new(monitor, self.fraction, self.fraction);
         // Refine everything while the model is small, later whenever it has grown by a tenth.
-        let everything = num_registered <= 12 || num_registered * 10 >= *adjusted_at * 11;
-        let cost = if everything {
+        let adjusts_all = num_registered <= 12 || num_registered * 10 >= *adjusted_at * 11;
+        let cost = if adjusts_all {
             *adjusted_at = num_registered;
             builder.adjust(None, 15, num_registered >= 4, &mut part)
         } else {
@@ -296,7 +296,7 @@ impl IncrementalReconstruction {
             builder.adjust(Some(&near), 15, false, &mut part)
         };
         builder.filter();
-        if everything {
+        if adjusts_all {
             builder.complete();
             builder.triangulate();
         }
@@ -314,7 +314,7 @@ impl IncrementalReconstruction {
             return Ok(None);
         };
         let builder = &mut self.builder;
-        let mut part = Part::new(monitor, self.share, self.share);
+        let mut part = Part::new(monitor, self.fraction, self.fraction);
         let mut cost = None;
         if round < FINAL_ROUNDS {
             builder.complete();

@@ -12,7 +12,7 @@ pub(super) struct Keyframes {
 }
 
 /// Fraction of a keyframe's points that may be out of sight before the next keyframe is due.
-const MAX_LOST_SHARE: f64 = 0.3;
+const MAX_LOST_FRACTION: f64 = 0.3;
 
 impl Keyframes {
     pub(super) fn insert(&mut self, frame: usize) {
@@ -52,21 +52,21 @@ impl Keyframes {
         let mut num_of_key = 0;
         let mut angles = Vec::new();
         for point in builder.points.iter().flatten() {
-            let is_seen_in = |image: usize| {
+            let is_visible_in = |image: usize| {
                 let found = point
-                    .seen
+                    .elements
                     .binary_search_by_key(&image, |element| element.image as usize);
                 found.is_ok()
             };
-            if is_seen_in(key) {
+            if is_visible_in(key) {
                 num_of_key += 1;
-                if is_seen_in(frame) {
+                if is_visible_in(frame) {
                     let rays = centers.map(|center| (point.position - center).normalize());
                     angles.push(libm::acos(rays[0].dot(&rays[1]).clamp(-1.0, 1.0)));
                 }
             }
         }
-        if (angles.len() as f64) < (1.0 - MAX_LOST_SHARE) * f64::from(num_of_key) {
+        if (angles.len() as f64) < (1.0 - MAX_LOST_FRACTION) * f64::from(num_of_key) {
             return true;
         }
         angles.sort_by(f64::total_cmp);

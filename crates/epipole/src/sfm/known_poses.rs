@@ -67,8 +67,8 @@ pub fn triangulate_tracks(
     let mut pairs = Vec::new();
     for (n, pair) in input.pairs.iter().enumerate() {
         pairs.push(meeting(pair, &builder));
-        let share = (n + 1) as f32 / input.pairs.len() as f32;
-        report(monitor, Stage::PairVerification, share)?;
+        let fraction = (n + 1) as f32 / input.pairs.len() as f32;
+        report(monitor, Stage::PairVerification, fraction)?;
     }
     builder.join_tracks(&pairs)?;
     builder.triangulate();

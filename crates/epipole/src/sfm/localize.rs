@@ -185,11 +185,11 @@ impl Reconstruction {
             }
         }
         let registered = (0..features.len()).filter(|&image| self.cameras[image].is_some());
-        let share = |done: usize| MATCHED * done as f32 / self.num_registered() as f32;
+        let fraction = |done: usize| MATCHED * done as f32 / self.num_registered() as f32;
         // If several images match the same point and keypoint, keep the least ambiguous match.
         let mut ratios: BTreeMap<(usize, usize), f32> = BTreeMap::new();
         for (done, image) in registered.enumerate() {
-            let mut part = Part::new(monitor, share(done), share(done + 1));
+            let mut part = Part::new(monitor, fraction(done), fraction(done + 1));
             let known = &features[image].descriptors;
             let matches =
                 match_descriptors(known, &photo.descriptors, &options.matching, &mut part)?;

@@ -73,8 +73,8 @@ pub fn estimate_similarity_of_points(
         .map(|(a, b)| !a.iter().chain(b.iter()).any(|x| x.is_infinite()))
         .collect();
     let usable = |list: &[Point3<f64>]| -> Vec<Point3<f64>> {
-        let kept = list.iter().zip(&is_usable).filter(|(_, is)| **is);
-        kept.map(|(point, _)| *point).collect()
+        let selected = list.iter().zip(&is_usable).filter(|(_, is)| **is);
+        selected.map(|(point, _)| *point).collect()
     };
     let (usable_from, usable_to) = (usable(from), usable(to));
     let estimator = SimilarityOfPoints::new(&usable_from, &usable_to)?;
@@ -329,16 +329,19 @@ mod tests {
 
     /// A round trip whose scale grows by the factor `growth` per step and whose heading drifts.
     fn drifted(count: usize, growth: f64) -> (Vec<RigidTransform>, Vec<RigidTransform>) {
-        let turn = std::f64::consts::TAU / count as f64;
+        let angle_rad = std::f64::consts::TAU / count as f64;
         let mut truth = vec![RigidTransform::identity()];
         let mut path = truth.clone();
         let mut length = 1.0;
         for i in 1..count {
-            let step = |length: f64, turn: f64| {
-                RigidTransform::new(Vector3::new(0.0, 0.0, length), Vector3::new(0.0, turn, 0.0))
+            let step = |length: f64, angle_rad: f64| {
+                RigidTransform::new(
+                    Vector3::new(0.0, 0.0, length),
+                    Vector3::new(0.0, angle_rad, 0.0),
+                )
             };
-            truth.push(truth[i - 1] * step(1.0, turn));
-            path.push(path[i - 1] * step(length, turn * 1.01));
+            truth.push(truth[i - 1] * step(1.0, angle_rad));
+            path.push(path[i - 1] * step(length, angle_rad * 1.01));
             length *= growth;
         }
         (truth, path)
@@ -401,7 +404,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_trip_that_drifts_in_heading_alone_is_closed_by_both() {
+    fn a_round_trip_that_drifts_only_in_heading_is_closed_by_both() {
         let (truth, path) = drifted(40, 1.0);
         let before = mean_error(&path, &truth);
         for motion in [LoopMotion::Rigid, LoopMotion::Similarity] {

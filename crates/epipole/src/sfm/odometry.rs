@@ -23,7 +23,7 @@ const OF_FRAMES: &str = "the path of a camera from frames";
 const FINAL_ADJUSTMENTS: usize = 10;
 
 /// Relative change of the focal length below which it has converged.
-const SETTLED_FOCAL: f64 = 2e-3;
+const FOCAL_TOLERANCE: f64 = 2e-3;
 
 /// Progress when all pairs are verified.
 const VERIFIED: f32 = 0.5;
@@ -112,7 +112,7 @@ pub struct Odometry {
     order: VecDeque<usize>,
     /// Number of remaining global adjustments.
     num_adjustments: usize,
-    share: f32,
+    fraction: f32,
 }
 
 impl Odometry {
@@ -240,7 +240,7 @@ impl Odometry {
                 true => FINAL_ADJUSTMENTS,
                 false => 0,
             },
-            share: VERIFIED,
+            fraction: VERIFIED,
         })
     }
 
@@ -252,7 +252,7 @@ impl Odometry {
     /// [`Error::Canceled`]; the partial result is valid.
     pub fn step(&mut self, monitor: &mut dyn Monitor) -> Result<Option<SfmStep>> {
         while let Some(&frame) = self.order.front() {
-            report(monitor, Stage::Registration, self.share)?;
+            report(monitor, Stage::Registration, self.fraction)?;
             let is_new = self.builder.cameras[frame].is_none();
             let placed = is_new && self.builder.register(frame).is_some();
             self.order.pop_front();
@@ -263,9 +263,9 @@ impl Odometry {
             let cameras = &self.builder.cameras[..self.num_frames];
             let num_registered = cameras.iter().flatten().count();
             let whole = self.num_frames.max(1) as f32;
-            let share = VERIFIED + (1.0 - VERIFIED) * num_registered as f32 / whole;
-            self.share = share.clamp(self.share, 1.0);
-            report(monitor, Stage::Registration, self.share)?;
+            let fraction = VERIFIED + (1.0 - VERIFIED) * num_registered as f32 / whole;
+            self.fraction = fraction.clamp(self.fraction, 1.0);
+            report(monitor, Stage::Registration, self.fraction)?;
             return Ok(Some(SfmStep::Registered {
                 image: frame,
                 num_registered,
@@ -307,7 +307,7 @@ impl Odometry {
             builder.triangulate_of(Some(frame));
         }
         let window = (self.keyframes).window(frame, self.options.window.max(2) - 1);
-        let mut part = Part::new(monitor, self.share, self.share);
+        let mut part = Part::new(monitor, self.fraction, self.fraction);
         let cost = builder.adjust(Some(&window), 10, false, &mut part);
         builder.filter();
         builder.complete();
@@ -321,15 +321,15 @@ impl Odometry {
         let before = builder.calibration.clone();
         builder.complete();
         builder.triangulate();
-        let mut part = Part::new(monitor, self.share, self.share);
+        let mut part = Part::new(monitor, self.fraction, self.fraction);
         let cost = builder.adjust(None, 50, true, &mut part);
         builder.filter();
         let cost = cost?;
         let mut both = before.iter().zip(&builder.calibration);
-        let is_settled = both.all(|(old, new)| {
-            (new.intrinsics.fu_px() / old.intrinsics.fu_px() - 1.0).abs() < SETTLED_FOCAL
+        let has_converged = both.all(|(old, new)| {
+            (new.intrinsics.fu_px() / old.intrinsics.fu_px() - 1.0).abs() < FOCAL_TOLERANCE
         });
-        self.num_adjustments = match is_settled {
+        self.num_adjustments = match has_converged {
             true => 0,
             false => self.num_adjustments - 1,
         };

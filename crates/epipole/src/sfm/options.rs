@@ -81,7 +81,7 @@ impl Default for SfmOptions {
 }
 
 /// Name of the result in [`TooFew`](crate::Error::TooFew).
-pub(super) const OF_PHOTOGRAPHS: &str = "structure from motion";
+pub(super) const OF_IMAGES: &str = "structure from motion";
 
 /// Checks images, cameras and options; returns the camera of each image.
 ///

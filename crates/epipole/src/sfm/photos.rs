@@ -2,7 +2,7 @@
 
 use super::bundle::PositionPrior;
 use super::incremental::{SfmResult, reconstruct};
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check_count};
+use super::options::{OF_IMAGES, SfmInput, SfmOptions, check_count};
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Camera;
@@ -114,11 +114,11 @@ pub fn match_features(
     };
     let after = |image: usize| image + 1..features.len().min(image.saturating_add(reach + 1));
     let total: usize = (0..features.len()).map(|image| after(image).len()).sum();
-    let share = |done: usize| done as f32 / total as f32;
+    let fraction = |done: usize| done as f32 / total as f32;
     let mut pairs = Vec::new();
     for image1 in 0..features.len() {
         for image2 in after(image1) {
-            let mut part = Part::new(monitor, share(pairs.len()), share(pairs.len() + 1));
+            let mut part = Part::new(monitor, fraction(pairs.len()), fraction(pairs.len() + 1));
             let (first, second) = (&features[image1], &features[image2]);
             pairs.push(PairMatches {
                 image1,
@@ -188,15 +188,15 @@ pub fn match_photos(
 ) -> Result<(Vec<SfmImage>, Vec<PairMatches>)> {
     if photos.len() < 2 {
         return Err(Error::TooFew {
-            what: OF_PHOTOGRAPHS,
+            what: OF_IMAGES,
             needed: 2,
             got: photos.len(),
         });
     }
-    let share = |done: usize| DETECTED * done as f32 / photos.len() as f32;
+    let fraction = |done: usize| DETECTED * done as f32 / photos.len() as f32;
     let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
-        let mut part = Part::new(monitor, share(index), share(index + 1));
+        let mut part = Part::new(monitor, fraction(index), fraction(index + 1));
         features.push(photo_features(photo, options, &mut part)?);
     }
     let mut part = Part::new(monitor, DETECTED, 1.0);

@@ -94,9 +94,9 @@ impl Reconstruction {
         let (mut sum, mut count) = (0.0, 0.0);
         for point in &self.points {
             for element in &point.track {
-                let seen = images[element.image as usize].keypoints[element.keypoint as usize];
+                let keypoint = images[element.image as usize].keypoints[element.keypoint as usize];
                 if let Some(pixel) = self.project(element.image as usize, &point.position) {
-                    sum += (pixel - seen).norm();
+                    sum += (pixel - keypoint).norm();
                     count += 1.0;
                 }
             }

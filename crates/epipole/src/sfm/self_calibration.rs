@@ -15,7 +15,7 @@ const MIN_IMAGES_OF_LENS: usize = 5;
 
 /// The lenses are corrected if the cost falls at least to this fraction. The cost is quadratic in
 /// the error: 0.9 corresponds to an error of 5 %.
-const MAX_COST_SHARE: f64 = 0.9;
+const MAX_COST_RATIO: f64 = 0.9;
 
 impl Reconstruction {
     /// Returns whether the observations determine the focal length of every lens: changing it by 20
@@ -95,7 +95,7 @@ impl Reconstruction {
         let before = unless_degenerate(adjust_bundle(&mut bundle, &fixed, monitor))?;
         let after = unless_degenerate(adjust_bundle(&mut bundle, &free, monitor))?;
         let has_helped = (before.zip(after))
-            .is_some_and(|(before, after)| after.final_cost < MAX_COST_SHARE * before.final_cost);
+            .is_some_and(|(before, after)| after.final_cost < MAX_COST_RATIO * before.final_cost);
         if !has_helped {
             return Ok(false);
         }

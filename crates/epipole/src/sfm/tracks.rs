@@ -105,7 +105,7 @@ pub fn build_tracks(
             };
             let of_a = own(&mut images[root_a], pair.image1);
             let of_b = own(&mut images[root_b], pair.image2);
-            if share_a_member(&of_a, &of_b) {
+            if have_common_member(&of_a, &of_b) {
                 images[root_a] = of_a;
                 images[root_b] = of_b;
                 continue;
@@ -139,7 +139,7 @@ pub fn build_tracks(
 }
 
 /// Returns whether two ascending lists have a member in common.
-fn share_a_member(a: &[u32], b: &[u32]) -> bool {
+fn have_common_member(a: &[u32], b: &[u32]) -> bool {
     let (mut i, mut j) = (0, 0);
     while i < a.len() && j < b.len() {
         match a[i].cmp(&b[j]) {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wrong_match_costs_itself_alone() {
+    fn a_wrong_match_costs_only_itself() {
         // Points 0 and 1 are seen in three images; a match of the weakest pair mixes them.
         let pairs = [
             pair(0, 1, &[(0, 0), (1, 1), (2, 2)]),

@@ -16,9 +16,9 @@ impl Sight<'_> {
     fn ray(&self) -> Vector3<f64> {
         match &self.view {
             View::Pixel(pixel) => self.camera.ray_in_world(pixel).normalize(),
-            View::Ray(seen) => {
+            View::Ray(projected) => {
                 let rotation = &self.camera.cam_from_world.rotation;
-                rotation.inverse_transform_vector(&seen.ray())
+                rotation.inverse_transform_vector(&projected.ray())
             }
         }
     }
@@ -30,8 +30,12 @@ impl Sight<'_> {
             View::Pixel(pixel) => self
                 .camera
                 .project(point)
-                .map_or(f64::INFINITY, |seen| (seen - pixel).norm_squared()),
-            View::Ray(seen) => seen.error_sq(&(self.camera.cam_from_world * point).coords),
+                .map_or(f64::INFINITY, |projected| {
+                    (projected - pixel).norm_squared()
+                }),
+            View::Ray(projected) => {
+                projected.error_sq(&(self.camera.cam_from_world * point).coords)
+            }
         }
     }
 
@@ -40,7 +44,7 @@ impl Sight<'_> {
     fn residual(&self, p: &Point3<f64>) -> Option<(Vector2<f64>, SMatrix<f64, 2, 3>)> {
         let pixel = match &self.view {
             View::Pixel(pixel) => pixel,
-            View::Ray(seen) => return seen.offset_with_derivative(&p.coords),
+            View::Ray(projected) => return projected.offset_with_derivative(&p.coords),
         };
         let k = &self.camera.camera.intrinsics;
         let (x, y) = (p.x / p.z, p.y / p.z);

@@ -160,26 +160,26 @@ pub fn two_view_reconstruction(
     }
     enough(matches.len(), options)?;
     let mut bundle = start.clone();
-    let mut share = 0.5;
-    let mut part = Part::new(monitor, 0.0, share);
+    let mut fraction = 0.5;
+    let mut part = Part::new(monitor, 0.0, fraction);
     let mut report = adjust_bundle(&mut bundle, &options.bundle, &mut part)?;
     for round in 0.. {
-        let kept: Vec<usize> = (0..matches.len())
+        let inliers: Vec<usize> = (0..matches.len())
             .filter(|&point| is_good(&bundle, point, options))
             .collect();
-        enough(kept.len(), options)?;
-        if kept.len() == matches.len() {
+        enough(inliers.len(), options)?;
+        if inliers.len() == matches.len() {
             break;
         }
-        matches = kept.iter().map(|&point| matches[point]).collect();
-        (start, bundle) = (only(&start, &kept), only(&bundle, &kept));
+        matches = inliers.iter().map(|&point| matches[point]).collect();
+        (start, bundle) = (only(&start, &inliers), only(&bundle, &inliers));
         // The removed points had biased all the others.
         if round < MAX_REPETITIONS {
             // Each repetition takes half of the remaining progress.
-            let next = 0.5 * (1.0 + share);
-            let mut part = Part::new(monitor, share, next);
+            let next = 0.5 * (1.0 + fraction);
+            let mut part = Part::new(monitor, fraction, next);
             report = adjust_bundle(&mut bundle, &options.bundle, &mut part)?;
-            share = next;
+            fraction = next;
         }
     }
     let all: Vec<usize> = (0..matches.len()).collect();

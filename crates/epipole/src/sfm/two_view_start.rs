@@ -109,8 +109,8 @@ pub(super) fn verify_pairs(
         });
         verified.extend(found.into_iter().flatten());
         done += group.len();
-        let share = done as f32 / pairs.len() as f32;
-        report(monitor, Stage::PairVerification, share)?;
+        let fraction = done as f32 / pairs.len() as f32;
+        report(monitor, Stage::PairVerification, fraction)?;
     }
     Ok(verified)
 }
@@ -176,8 +176,8 @@ pub(super) fn verify_pair(
     // A rotation gives no depth, and with a wrong focal length it passes for a plane.
     let rotation_only = flat.as_ref().is_some_and(|flat| {
         find_explaining_rotation(&pixels1, &pixels2, cameras, &flat.inliers, &judging)
-            .is_ok_and(|turn| turn.is_some())
-            || turned_otherwise([&pixels1, &pixels2], cameras, &flat.inliers, &judging)
+            .is_ok_and(|rotation| rotation.is_some())
+            || is_rotation_with_other_focal([&pixels1, &pixels2], cameras, &flat.inliers, &judging)
     });
     let median_angle_rad = match rotation_only {
         true => 0.0,
@@ -222,12 +222,12 @@ fn find_plane(
 }
 
 /// Returns whether a rotation with another focal length explains matches on a plane.
-fn turned_otherwise(
+fn is_rotation_with_other_focal(
     [pixels1, pixels2]: [&[Point2<f64>]; 2],
     cameras: [&Camera; 2],
     on_plane: &[bool],
     judging: &TwoViewOptions,
 ) -> bool {
     find_rotation_and_focal(pixels1, pixels2, cameras, on_plane, judging)
-        .is_ok_and(|turn| turn.is_some())
+        .is_ok_and(|rotation| rotation.is_some())
 }

@@ -1,7 +1,7 @@
 //! Reasons why images are missing from a reconstruction.
 
 use super::incremental::SfmResult;
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check, pair_ransac};
+use super::options::{OF_IMAGES, SfmInput, SfmOptions, check, pair_ransac};
 use super::two_view_start::verify_pair;
 use super::views::Views;
 use crate::Result;
@@ -40,7 +40,7 @@ pub enum WhyUnregistered {
     /// It could have started a reconstruction with an image that matches it, but no points
     /// remained.
     #[error(
-        "too few of its matches become points within the largest error and under the smallest angle that are asked for, or its focal length is wrong"
+        "too few of its matches become points within the largest error and under the smallest angle of the options, or its focal length is wrong"
     )]
     NoStart,
     /// It matches registered images, but mostly where these have no points.
@@ -100,7 +100,7 @@ pub fn why_unregistered(
     result: &SfmResult,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<WhyUnregistered>> {
-    let cameras = check(OF_PHOTOGRAPHS, &input.images, &input.cameras, options)?;
+    let cameras = check(OF_IMAGES, &input.images, &input.cameras, options)?;
     let views = Views::new(&input.images, &cameras);
     let ransac = pair_ransac(options);
     let needed = options.min_num_inliers;
@@ -149,7 +149,7 @@ pub fn why_unregistered(
         if verified.is_empty() {
             return WhyUnregistered::NoMotion;
         }
-        let mut sees = vec![false; num_keypoints];
+        let mut has_visible_point = vec![false; num_keypoints];
         let mut has_placed_neighbor = false;
         for pair in verified.iter().map(|verified| &verified.pair) {
             for found in &pair.matches {
@@ -159,11 +159,14 @@ pub fn why_unregistered(
                     (found.index2, pair.image1, found.index1)
                 };
                 let is_point = has_point[other][there];
-                sees[mine] |= is_point;
+                has_visible_point[mine] |= is_point;
                 has_placed_neighbor |= is_point;
             }
         }
-        let visible = sees.iter().filter(|sees| **sees).count();
+        let visible = has_visible_point
+            .iter()
+            .filter(|has_visible_point| **has_visible_point)
+            .count();
         let has_baseline = verified
             .iter()
             .any(|verified| verified.median_angle_rad > LEAST_START_ANGLE_RAD);
@@ -181,8 +184,8 @@ pub fn why_unregistered(
     };
     let mut reasons = Vec::new();
     for (done, image) in result.unregistered.iter().enumerate() {
-        let share = done as f32 / result.unregistered.len() as f32;
-        report(monitor, Stage::PairVerification, share)?;
+        let fraction = done as f32 / result.unregistered.len() as f32;
+        report(monitor, Stage::PairVerification, fraction)?;
         reasons.push(why(image));
     }
     Ok(reasons)
@@ -201,7 +204,7 @@ mod tests {
 
     /// Three cameras in a row that see everything, and others that do not.
     #[test]
-    fn each_missing_photograph_has_its_reason() {
+    fn each_unregistered_image_has_its_reason() {
         let mut random = Random::new(1);
         let k = Intrinsics::centered(600.0, 640, 480).unwrap();
         let points: Vec<Point3<f64>> = (0..80)
@@ -213,7 +216,7 @@ mod tests {
                 )
             })
             .collect();
-        let see = |pose: &RigidTransform| -> Vec<Point2<f64>> {
+        let observe = |pose: &RigidTransform| -> Vec<Point2<f64>> {
             points
                 .iter()
                 .map(|x| k.project(&(pose * x)).unwrap())
@@ -221,7 +224,7 @@ mod tests {
         };
         let at = |x: f64| RigidTransform::new(Vector3::new(x, 0.0, 0.1 * x), Vector3::zeros());
         let mut keypoints: Vec<Vec<Point2<f64>>> =
-            [0.0, -0.6, -1.2].iter().map(|x| see(&at(*x))).collect();
+            [0.0, -0.6, -1.2].iter().map(|x| observe(&at(*x))).collect();
         // 3: no keypoints. 4: matches nothing. 5: matches at random. 6: sees 10 of the points.
         keypoints.push(Vec::new());
         let mut anywhere = |count: usize| -> Vec<Point2<f64>> {
@@ -231,7 +234,7 @@ mod tests {
         };
         keypoints.push(anywhere(80));
         keypoints.push(anywhere(80));
-        keypoints.push(see(&at(-0.3)));
+        keypoints.push(observe(&at(-0.3)));
         let all: Vec<Match> = (0..80).map(|i| Match::new(i, i)).collect();
         let pair = |image1, image2, matches: &[Match]| PairMatches {
             image1,

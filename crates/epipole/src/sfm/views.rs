@@ -25,12 +25,12 @@ impl Views {
         if (cameras.iter()).all(|camera| camera.lens.kind() == LensKind::Brown) {
             return Self {
                 cameras: cameras.iter().map(pinhole).collect(),
-                pixels: undistorted(images, cameras),
+                pixels: undistort_keypoints(images, cameras),
                 observed: None,
             };
         }
         Self {
-            observed: Some(observed(images, cameras)),
+            observed: Some(observe_keypoints(images, cameras)),
             cameras: cameras.to_vec(),
             pixels: images.iter().map(|image| image.keypoints.clone()).collect(),
         }
@@ -40,7 +40,7 @@ impl Views {
     pub(super) fn of(&self, image: usize, keypoint: usize) -> Option<View<'_>> {
         match &self.observed {
             None => Some(View::Pixel(self.pixels[image][keypoint])),
-            Some(seen) => seen[image][keypoint].as_ref().map(View::Ray),
+            Some(observations) => observations[image][keypoint].as_ref().map(View::Ray),
         }
     }
 }
@@ -54,17 +54,17 @@ pub(super) enum View<'a> {
 }
 
 /// Computes the rays of all keypoints; `None` for keypoints beyond the range of the lens model.
-fn observed(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observation>>> {
-    let mut seen: Vec<Vec<Option<Observation>>> = vec![Vec::new(); images.len()];
-    crate::math::parallel::for_each_chunk(&mut seen, 1, |index, seen| {
+fn observe_keypoints(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Option<Observation>>> {
+    let mut observations: Vec<Vec<Option<Observation>>> = vec![Vec::new(); images.len()];
+    crate::math::parallel::for_each_chunk(&mut observations, 1, |index, observations| {
         let observe = |pixel| cameras[index].observe(pixel).ok();
-        seen[0] = images[index].keypoints.iter().map(observe).collect();
+        observations[0] = images[index].keypoints.iter().map(observe).collect();
     });
-    seen
+    observations
 }
 
 /// Undistorts all keypoints.
-fn undistorted(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Point2<f64>>> {
+fn undistort_keypoints(images: &[SfmImage], cameras: &[Camera]) -> Vec<Vec<Point2<f64>>> {
     images
         .iter()
         .zip(cameras)

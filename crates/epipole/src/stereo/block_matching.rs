@@ -1,7 +1,7 @@
 //! Block matching.
 
 use super::DisparityImage;
-use super::filter::{DisparityFilter, SEARCH_SHARE};
+use super::filter::{DisparityFilter, SEARCH_FRACTION};
 use super::prefilter::StereoPrefilter;
 use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
@@ -111,7 +111,7 @@ impl StereoBm {
             // Starting a strip costs as much as the rows of one window.
             least_rows: 4 * self.window_px as usize,
         };
-        let part = &mut Part::new(monitor, 0.0, SEARCH_SHARE);
+        let part = &mut Part::new(monitor, 0.0, SEARCH_FRACTION);
         strips.run(&mut values, part, |first_row, values, reporter| {
             let mut windows = Windows::new(search, self, &left, &right, first_row);
             let mut selector = Selector::new(search, self.filter);
@@ -125,7 +125,7 @@ impl StereoBm {
             }
             Ok(())
         })?;
-        let clean = &mut Part::new(monitor, SEARCH_SHARE, 1.0);
+        let clean = &mut Part::new(monitor, SEARCH_FRACTION, 1.0);
         self.filter.clean(search.image(values), clean)
     }
 

@@ -44,14 +44,14 @@ pub fn remove_speckles(
     let mut runs = Sets::default();
     for i in 0..values.len() {
         if i % width == 0 {
-            let share = 0.9 * i as f32 / values.len() as f32;
-            report(monitor, Stage::DenseMatching, share)?;
+            let fraction = 0.9 * i as f32 / values.len() as f32;
+            report(monitor, Stage::DenseMatching, fraction)?;
         }
         // NaN compares as false, so it connects to nothing.
         if values[i].is_nan() {
             continue;
         }
-        let is_first = i % width == 0 || !connected(values[i], values[i - 1], range_px);
+        let is_first = i % width == 0 || !are_connected(values[i], values[i - 1], range_px);
         let run = if is_first {
             runs.add()
         } else {
@@ -59,12 +59,12 @@ pub fn remove_speckles(
         };
         run_of_pixel[i] = run;
         runs.sizes[run as usize] += 1;
-        if i >= width && connected(values[i], values[i - width], range_px) {
+        if i >= width && are_connected(values[i], values[i - width], range_px) {
             let above = run_of_pixel[i - width];
             // Most pixels repeat the connection of the previous pixel.
             let repeats = !is_first
                 && above == run_of_pixel[i - 1 - width]
-                && connected(values[i - 1], values[i - 1 - width], range_px);
+                && are_connected(values[i - 1], values[i - 1 - width], range_px);
             if !repeats {
                 runs.join(run, above);
             }
@@ -83,7 +83,7 @@ pub fn remove_speckles(
 /// The run of a pixel without disparity.
 const NO_RUN: u32 = u32::MAX;
 
-fn connected(a: f32, b: f32, range_px: f32) -> bool {
+fn are_connected(a: f32, b: f32, range_px: f32) -> bool {
     (a - b).abs() <= range_px
 }
 
@@ -169,8 +169,8 @@ fn close_gaps_of_line(
             let begin = values[first + j * step];
             if k - j > 1 && k - j - 1 <= max_gap && (end - begin).abs() <= range_px {
                 for i in j + 1..k {
-                    let share = (i - j) as f32 / (k - j) as f32;
-                    values[first + i * step] = begin + (end - begin) * share;
+                    let fraction = (i - j) as f32 / (k - j) as f32;
+                    values[first + i * step] = begin + (end - begin) * fraction;
                 }
             }
         }
@@ -190,14 +190,14 @@ mod tests {
         let (width, height) = (disparity.width() as usize, disparity.height() as usize);
         let values = disparity.as_raw();
         let mut out = values.to_vec();
-        let mut seen = vec![false; values.len()];
+        let mut visited = vec![false; values.len()];
         for start in 0..values.len() {
             let mut set = vec![start];
             let mut next = 0;
-            if seen[start] || values[start].is_nan() {
+            if visited[start] || values[start].is_nan() {
                 continue;
             }
-            seen[start] = true;
+            visited[start] = true;
             while next < set.len() {
                 let i = set[next];
                 next += 1;
@@ -208,8 +208,8 @@ mod tests {
                     (v > 0, i.wrapping_sub(width)),
                     (v + 1 < height, i + width),
                 ] {
-                    if inside && !seen[j] && connected(values[i], values[j], range_px) {
-                        seen[j] = true;
+                    if inside && !visited[j] && are_connected(values[i], values[j], range_px) {
+                        visited[j] = true;
                         set.push(j);
                     }
                 }

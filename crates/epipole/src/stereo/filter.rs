@@ -7,7 +7,7 @@ use crate::{Error, Result};
 use derive_setters::Setters;
 
 /// Progress of a dense matcher when the filter starts.
-pub(super) const SEARCH_SHARE: f32 = 0.9;
+pub(super) const SEARCH_FRACTION: f32 = 0.9;
 
 /// Tests of the disparities of a dense matcher.
 ///

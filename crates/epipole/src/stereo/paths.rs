@@ -138,9 +138,9 @@ dispatched! {
             let before = &previous[PAD - 1..PAD + num_cells + 1];
             minimum = advance::<BLOCK>(costs, before, minimum, p1, p2[u], next);
             // Copied from the row, so that reads cannot alias writes.
-            let kept = previous[PAD..PAD + num_cells].chunks_exact_mut(BLOCK);
-            for (kept, cells) in kept.zip(next.chunks_exact(BLOCK)) {
-                kept.copy_from_slice(cells);
+            let blocks = previous[PAD..PAD + num_cells].chunks_exact_mut(BLOCK);
+            for (blocks, cells) in blocks.zip(next.chunks_exact(BLOCK)) {
+                blocks.copy_from_slice(cells);
             }
         }
     }

@@ -137,7 +137,7 @@ mod tests {
     use crate::stereo::q_from_rig;
 
     #[test]
-    fn only_points_in_front_are_kept_with_their_colors() {
+    fn only_points_in_front_remain_with_their_colors() {
         let values = vec![10.0, 0.0, -5.0, f32::NAN];
         let disparity = DisparityImage::from_raw(4, 1, values).unwrap();
         let q = q_from_rig(100.0, 0.5, 0.0, 0.0).unwrap();

@@ -32,7 +32,7 @@ impl StereoPrefilter {
 }
 
 #[inline(always)]
-fn limited(x: i16, cap: u8) -> u8 {
+fn limit(x: i16, cap: u8) -> u8 {
     (x.clamp(-i16::from(cap), i16::from(cap)) + i16::from(cap)) as u8
 }
 
@@ -54,7 +54,7 @@ dispatched! {
             sums[width + 1] = sums[width];
             let (before, after) = (&sums[..width], &sums[2..]);
             for u in 0..width {
-                out[u] = limited(after[u] - before[u], cap);
+                out[u] = limit(after[u] - before[u], cap);
             }
         }
         out
@@ -85,7 +85,7 @@ dispatched! {
                 sum += columns[u + 2 * MEAN_RADIUS];
                 // Rounded to nearest: sums are never negative.
                 let mean = (2 * sum + area) / (2 * area);
-                out[u] = limited(i16::from(here[u]) - mean as i16, cap);
+                out[u] = limit(i16::from(here[u]) - mean as i16, cap);
                 sum -= columns[u];
             }
         }

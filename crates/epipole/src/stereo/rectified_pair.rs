@@ -38,12 +38,12 @@ impl Rectification {
     /// # Ok(()) }
     /// ```
     pub fn disparity_of(&self, place: &Point3<f64>) -> Option<(Point2<f64>, f64)> {
-        let turned = self.rect_from_cam[0] * place;
-        if turned.z.is_nan() || turned.z <= 0.0 {
+        let rotated = self.rect_from_cam[0] * place;
+        if rotated.z.is_nan() || rotated.z <= 0.0 {
             return None;
         }
         let from_space = self.q.try_inverse()?;
-        let [u, v, d, w] = (from_space * Vector4::from(turned.to_homogeneous())).into();
+        let [u, v, d, w] = (from_space * Vector4::from(rotated.to_homogeneous())).into();
         let found = [u / w, v / w, d / w];
         let is_finite = found.iter().all(|x| x.is_finite());
         is_finite.then(|| (Point2::new(found[0], found[1]), found[2]))
@@ -60,8 +60,9 @@ impl Rectification {
         let sides = [f64::from(self.width), f64::from(self.height)];
         let inside =
             |pixel: &Point2<f64>| (0..2).all(|axis| (0.0..sides[axis]).contains(&pixel[axis]));
-        let seen = places.iter().filter_map(|place| self.disparity_of(place));
-        let disparities = seen.filter_map(|(pixel, disparity)| inside(&pixel).then_some(disparity));
+        let projected = places.iter().filter_map(|place| self.disparity_of(place));
+        let disparities =
+            projected.filter_map(|(pixel, disparity)| inside(&pixel).then_some(disparity));
         let axis = usize::from(self.is_vertical);
         let center = |index: usize| self.intrinsics[index].principal_point()[axis];
         range_of(disparities.collect(), center(0) - center(1))
@@ -78,7 +79,7 @@ fn range_of(mut disparities: Vec<f64>, at_infinity: f64) -> Result<[i32; 2]> {
         });
     }
     let last = (disparities.len() - 1) as f64;
-    let mut at = |share: f64| at_rank(&mut disparities, (share * last).round() as usize);
+    let mut at = |fraction: f64| at_rank(&mut disparities, (fraction * last).round() as usize);
     let (low, high) = (at(WRONG), at(1.0 - WRONG));
     let room = BEYOND.0 + BEYOND.1 * (high - low);
     let (mut first, mut end) = ((low - room).floor(), (high + room).ceil());
@@ -111,7 +112,7 @@ pub struct RectifiedPair {
 impl RectifiedPair {
     /// Rectifies two images.
     ///
-    /// * `photographs`: images with the sizes of the rig's intrinsics, pixels
+    /// * `images`: images with the sizes of the rig's intrinsics, pixels
     ///
     /// The only stage is [`Stage::Warping`](crate::progress::Stage::Warping).
     ///
@@ -119,10 +120,10 @@ impl RectifiedPair {
     /// [`Error::SizeMismatch`] for images of different size, [`Error::Canceled`].
     pub fn new(
         rig: &Rectification,
-        photographs: [&RgbImage; 2],
+        images: [&RgbImage; 2],
         monitor: &mut dyn Monitor,
     ) -> Result<Self> {
-        let sizes = photographs.map(RgbImage::dimensions);
+        let sizes = images.map(RgbImage::dimensions);
         for (what, first, second) in [
             ("the rows of the two images", sizes[0].0, sizes[1].0),
             ("the columns of the two images", sizes[0].1, sizes[1].1),
@@ -139,20 +140,20 @@ impl RectifiedPair {
             rig.map(0, &mut Part::new(monitor, 0.0, 0.3))?,
             rig.map(1, &mut Part::new(monitor, 0.3, 0.6))?,
         ];
-        let [first, second] = photographs;
+        let [first, second] = images;
         let pictures = [
             maps[0].warp(first, &mut Part::new(monitor, 0.6, 0.7))?,
             maps[1].warp(second, &mut Part::new(monitor, 0.7, 0.8))?,
         ];
         // Each takes about as long as a warp.
         report(monitor, Stage::Warping, 0.8)?;
-        let shown = filled(&maps[0], sizes[0], 0.0);
+        let shown = source_mask(&maps[0], sizes[0], 0.0);
         report(monitor, Stage::Warping, 0.9)?;
         Ok(Self {
             rig: rig.clone(),
             pictures,
             shown,
-            trusted: maps.map(|map| filled(&map, sizes[0], EDGE_PX)),
+            trusted: maps.map(|map| source_mask(&map, sizes[0], EDGE_PX)),
         })
     }
 
@@ -180,8 +181,8 @@ impl RectifiedPair {
     ) -> Result<DisparityImage> {
         let [first, second] =
             [0, 1].map(|index| self.along_rows(&rgb_to_gray(&self.pictures[index])));
-        let found = self.turned(&matching(&first, &second)?);
-        Ok(self.kept(&found, |index, disparity| self.is_within(index, disparity)))
+        let found = self.transposed_if_vertical(&matching(&first, &second)?);
+        Ok(self.masked(&found, |index, disparity| self.is_within(index, disparity)))
     }
 
     /// Computes disparities for every pixel with image content, by [`fill_gaps`] and with its
@@ -195,8 +196,12 @@ impl RectifiedPair {
         monitor: &mut dyn Monitor,
     ) -> Result<DisparityImage> {
         let first = self.along_rows(&rgb_to_gray(&self.pictures[0]));
-        let filled = self.turned(&fill_gaps(&self.turned(disparity), &first, monitor)?);
-        Ok(self.kept(&filled, |index, _| self.shown[index]))
+        let filled = self.transposed_if_vertical(&fill_gaps(
+            &self.transposed_if_vertical(disparity),
+            &first,
+            monitor,
+        )?);
+        Ok(self.masked(&filled, |index, _| self.shown[index]))
     }
 
     /// Returns whether a pixel of the first image and its match both have image content.
@@ -212,14 +217,18 @@ impl RectifiedPair {
         self.trusted[0][index] && is_in_picture && self.trusted[1][(v * width + u) as usize]
     }
 
-    fn kept(&self, found: &DisparityImage, is_kept: impl Fn(usize, f32) -> bool) -> DisparityImage {
-        let mut kept = found.clone();
-        for (index, value) in kept.values_mut().iter_mut().enumerate() {
-            if !is_kept(index, *value) {
+    fn masked(
+        &self,
+        found: &DisparityImage,
+        is_valid: impl Fn(usize, f32) -> bool,
+    ) -> DisparityImage {
+        let mut masked = found.clone();
+        for (index, value) in masked.values_mut().iter_mut().enumerate() {
+            if !is_valid(index, *value) {
                 *value = f32::NAN;
             }
         }
-        kept
+        masked
     }
 
     /// Transposes an image of a vertical rig, so that its matches share a row.
@@ -233,7 +242,7 @@ impl RectifiedPair {
     }
 
     /// Transposes disparities of a vertical rig, in either direction.
-    fn turned(&self, disparity: &DisparityImage) -> DisparityImage {
+    fn transposed_if_vertical(&self, disparity: &DisparityImage) -> DisparityImage {
         match self.rig.is_vertical {
             true => disparity.transposed(),
             false => disparity.clone(),
@@ -243,7 +252,7 @@ impl RectifiedPair {
 
 /// Returns which pixels of a rectified image are read from an image of this size, at least this far
 /// from its edge.
-fn filled(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool> {
+fn source_mask(map: &PixelMap, (width, height): (u32, u32), edge_px: f64) -> Vec<bool> {
     let inside = |at: f64, side: u32| (edge_px..=f64::from(side) - 1.0 - edge_px).contains(&at);
     let is_filled = |(u, v)| {
         let source = map.source(u, v);

@@ -177,7 +177,7 @@ fn send_epipole_to_infinity(
     let to_middle = Matrix3::new_translation(&-middle);
     let from_middle = Matrix3::new_translation(&middle);
     #[rustfmt::skip]
-    let turn = Matrix3::new(
+    let rotation = Matrix3::new(
         cos,  sin, 0.0,
         -sin, cos, 0.0,
         0.0,  0.0, 1.0,
@@ -189,7 +189,7 @@ fn send_epipole_to_infinity(
         0.0,                     1.0, 0.0,
         -side * inverse_distance, 0.0, 1.0,
     );
-    Ok(from_middle * stretch * turn * to_middle)
+    Ok(from_middle * stretch * rotation * to_middle)
 }
 
 /// Returns H2 M with M = [e2]ₓ F + e2 vᵀ: every match gets its row of the second image.
@@ -340,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn matches_share_a_line_and_nothing_is_turned_over() {
+    fn matches_share_a_line_and_nothing_is_flipped() {
         for (center2, target2, vertical) in [
             ([0.5, 0.1, 0.1], [0.1, 0.0, 5.0], false),
             ([-0.5, 0.1, -0.1], [0.1, 0.2, 5.0], false),

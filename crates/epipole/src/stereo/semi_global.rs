@@ -1,12 +1,12 @@
 //! Semi-global matching.
 
 use super::DisparityImage;
-use super::filter::{DisparityFilter, SEARCH_SHARE};
+use super::filter::{DisparityFilter, SEARCH_FRACTION};
 use super::matching_cost::{CostRows, StereoCost};
 use super::paths::{Penalties, Sweep};
 use super::search::{Search, to_eight_bits};
 use super::winner::Selector;
-use super::work::{alone, in_two};
+use super::work::{in_two, single};
 use crate::math::monitored::Reporter;
 use crate::progress::{Monitor, Part};
 use crate::{Error, Result};
@@ -135,13 +135,13 @@ impl StereoSgm {
             options: self,
             penalties: self.penalties(),
         };
-        let part = &mut Part::new(monitor, 0.0, SEARCH_SHARE);
+        let part = &mut Part::new(monitor, 0.0, SEARCH_FRACTION);
         let values = match self.paths {
-            StereoPaths::Five => alone(part, |reporter| task.five_paths(reporter))?,
+            StereoPaths::Five => single(part, |reporter| task.five_paths(reporter))?,
             StereoPaths::Four => task.both_ways::<2>(part)?,
             StereoPaths::Eight => task.both_ways::<4>(part)?,
         };
-        let clean = &mut Part::new(monitor, SEARCH_SHARE, 1.0);
+        let clean = &mut Part::new(monitor, SEARCH_FRACTION, 1.0);
         self.filter.clean(search.image(values), clean)
     }
 

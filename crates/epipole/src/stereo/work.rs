@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 const STAGE: Stage = Stage::DenseMatching;
 
 /// Runs work on one thread.
-pub(super) fn alone<T>(
+pub(super) fn single<T>(
     monitor: &mut dyn Monitor,
     work: impl FnOnce(&mut Reporter) -> Result<T>,
 ) -> Result<T> {
@@ -24,7 +24,7 @@ pub(super) fn alone<T>(
 /// Runs two independent pieces of work in parallel, if threads are available.
 pub(super) fn in_two(
     monitor: &mut dyn Monitor,
-    shares: Range<f32>,
+    fractions: Range<f32>,
     first: impl FnOnce(&mut Reporter) -> Result<()>,
     second: impl FnOnce(&mut Reporter) -> Result<()> + Send,
 ) -> Result<()> {
@@ -40,23 +40,23 @@ pub(super) fn in_two(
                 STAGE,
                 monitor,
                 canceled,
-                shares.clone(),
+                fractions.clone(),
             ))
         });
         return first_result.and(second_result);
     }
-    let middle = 0.5 * (shares.start + shares.end);
+    let middle = 0.5 * (fractions.start + fractions.end);
     first(&mut Reporter::of_caller(
         STAGE,
         &mut *monitor,
         canceled,
-        shares.start..middle,
+        fractions.start..middle,
     ))?;
     second(&mut Reporter::of_caller(
         STAGE,
         monitor,
         canceled,
-        middle..shares.end,
+        middle..fractions.end,
     ))
 }
 

@@ -49,8 +49,8 @@ pub fn chain_homographies(num_images: usize, overlaps: &[Overlap]) -> Result<Pan
             true => Some(overlap.homography),
             false => overlap.homography.try_inverse(),
         };
-        let seen = overlap.pixels[usize::from(overlap.images[0] != parent)].first();
-        matrices[child] = child_from_parent.zip(seen).and_then(|(h, pixel)| {
+        let first = overlap.pixels[usize::from(overlap.images[0] != parent)].first();
+        matrices[child] = child_from_parent.zip(first).and_then(|(h, pixel)| {
             // The matches are in front of both cameras.
             let h = h * (h * pixel.to_homogeneous()).z.signum();
             let of_parent: Matrix3<f64> = matrices[parent]?;

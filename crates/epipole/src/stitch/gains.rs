@@ -23,17 +23,17 @@ pub(super) fn gains(canvas: &Canvas, views: &[View], photos: &[&RgbImage]) -> Ve
     let mut numbers = DMatrix::<f64>::zeros(count, count);
     for v in (0..canvas.height()).step_by(STEP_PX) {
         for u in (0..canvas.width()).step_by(STEP_PX) {
-            let mut seen: Vec<(usize, f64)> = Vec::new();
+            let mut visible: Vec<(usize, f64)> = Vec::new();
             for (n, view) in views.iter().enumerate() {
                 let photo = photos[view.image];
                 let is_near = view.columns.contains(&u) && view.rows.contains(&v);
                 if is_near && weight(canvas, view, photo.dimensions(), u, v) > 0.0 {
                     let sum: f32 = color(canvas, view, photo, u, v).iter().sum();
-                    seen.push((n, f64::from(sum) / 3.0));
+                    visible.push((n, f64::from(sum) / 3.0));
                 }
             }
-            for &(i, value) in &seen {
-                for &(j, _) in seen.iter().filter(|(j, _)| *j != i) {
+            for &(i, value) in &visible {
+                for &(j, _) in visible.iter().filter(|(j, _)| *j != i) {
                     sums[(i, j)] += value;
                     numbers[(i, j)] += 1.0;
                 }

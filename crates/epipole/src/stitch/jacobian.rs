@@ -19,13 +19,13 @@ pub(super) struct PixelMatch {
 /// Photos by index, the first of which is fixed: the parameters are a rotation vector for each
 /// other photo, applied after its initial rotation, and the logarithm of the factor relative to its
 /// initial value.
-pub(super) struct Turns {
+pub(super) struct RotationParameters {
     pub(super) intrinsics: Vec<Intrinsics>,
     pub(super) starts: Vec<Matrix3<f64>>,
     pub(super) factor: f64,
 }
 
-impl Turns {
+impl RotationParameters {
     fn vector(&self, parameters: &DVector<f64>, number: usize) -> Vector3<f64> {
         match number.checked_sub(1) {
             None => Vector3::zeros(),
@@ -34,8 +34,8 @@ impl Turns {
     }
 
     pub(super) fn rotation(&self, parameters: &DVector<f64>, number: usize) -> Matrix3<f64> {
-        let turn = Rotation3::from_scaled_axis(self.vector(parameters, number));
-        turn * self.starts[number]
+        let delta = Rotation3::from_scaled_axis(self.vector(parameters, number));
+        delta * self.starts[number]
     }
 
     pub(super) fn factor(&self, parameters: &DVector<f64>) -> f64 {
@@ -46,17 +46,17 @@ impl Turns {
 /// Residuals of matches in their second photo, pixels.
 pub(super) struct RotationsProblem {
     pub(super) matches: Vec<PixelMatch>,
-    pub(super) turns: Turns,
+    pub(super) rotations: RotationParameters,
     pub(super) is_focal_held: bool,
 }
 
 /// A match for some parameters.
-struct Seen {
+struct ProjectedMatch {
     /// Ray in image 1, with its z scaled by the factor.
     ray1: Vector3<f64>,
     /// The same in image 2.
     ray2: Vector3<f64>,
-    turn: Matrix3<f64>,
+    rotation: Matrix3<f64>,
     residual: Vector2<f64>,
     /// Derivatives of the residual by `ray2`.
     by_ray: Matrix2x3<f64>,
@@ -66,19 +66,21 @@ struct Seen {
 
 impl RotationsProblem {
     pub(super) fn num_parameters(&self) -> usize {
-        3 * (self.turns.intrinsics.len() - 1) + 1
+        3 * (self.rotations.intrinsics.len() - 1) + 1
     }
 
-    fn seen(&self, parameters: &DVector<f64>, found: &PixelMatch) -> Option<Seen> {
-        let [k1, k2] = found.images.map(|number| &self.turns.intrinsics[number]);
+    fn project(&self, parameters: &DVector<f64>, found: &PixelMatch) -> Option<ProjectedMatch> {
+        let [k1, k2] = found
+            .images
+            .map(|number| &self.rotations.intrinsics[number]);
         let [r1, r2] = found
             .images
-            .map(|number| self.turns.rotation(parameters, number));
-        let factor = self.turns.factor(parameters);
+            .map(|number| self.rotations.rotation(parameters, number));
+        let factor = self.rotations.factor(parameters);
         let ray = k1.ray(&found.pixels[0]);
         let ray1 = Vector3::new(ray.x / ray.z, ray.y / ray.z, factor);
-        let turn = r2 * r1.transpose();
-        let ray2 = turn * ray1;
+        let rotation = r2 * r1.transpose();
+        let ray2 = rotation * ray1;
         if ray2.z <= 0.0 {
             return None;
         }
@@ -93,10 +95,10 @@ impl RotationsProblem {
             -about.y / ray2.z,
         );
         let residual = about + k2.principal_point().coords - found.pixels[1].coords;
-        Some(Seen {
+        Some(ProjectedMatch {
             ray1,
             ray2,
-            turn,
+            rotation,
             residual,
             by_ray,
             about,
@@ -125,9 +127,9 @@ impl DenseProblem for RotationsProblem {
 
     fn residuals(&self, parameters: &DVector<f64>, residuals: &mut DVector<f64>) {
         for (n, found) in self.matches.iter().enumerate() {
-            let seen = self.seen(parameters, found);
+            let projected = self.project(parameters, found);
             let behind = Vector2::repeat(f64::INFINITY);
-            let residual = seen.map_or(behind, |seen| seen.residual);
+            let residual = projected.map_or(behind, |projected| projected.residual);
             residuals.fixed_rows_mut::<2>(2 * n).copy_from(&residual);
         }
     }
@@ -136,25 +138,30 @@ impl DenseProblem for RotationsProblem {
         jacobian.fill(0.0);
         let last = parameters.len() - 1;
         for (n, found) in self.matches.iter().enumerate() {
-            let Some(seen) = self.seen(parameters, found) else {
+            let Some(projected) = self.project(parameters, found) else {
                 continue;
             };
-            let by_turn = |number: usize| left_jacobian(&self.turns.vector(parameters, number));
+            let by_rotation =
+                |number: usize| left_jacobian(&self.rotations.vector(parameters, number));
             let [first, second] = found.images;
             if let Some(place) = second.checked_sub(1) {
-                let block = -seen.by_ray * cross_matrix(&seen.ray2) * by_turn(second);
+                let block = -projected.by_ray * cross_matrix(&projected.ray2) * by_rotation(second);
                 jacobian
                     .fixed_view_mut::<2, 3>(2 * n, 3 * place)
                     .copy_from(&block);
             }
             if let Some(place) = first.checked_sub(1) {
-                let block = seen.by_ray * seen.turn * cross_matrix(&seen.ray1) * by_turn(first);
+                let block = projected.by_ray
+                    * projected.rotation
+                    * cross_matrix(&projected.ray1)
+                    * by_rotation(first);
                 jacobian
                     .fixed_view_mut::<2, 3>(2 * n, 3 * place)
                     .copy_from(&block);
             }
-            let factor = seen.ray1.z;
-            let by_focal = seen.about + seen.by_ray * seen.turn.column(2) * factor;
+            let factor = projected.ray1.z;
+            let by_focal =
+                projected.about + projected.by_ray * projected.rotation.column(2) * factor;
             jacobian
                 .fixed_view_mut::<2, 1>(2 * n, last)
                 .copy_from(&by_focal);
@@ -193,7 +200,7 @@ mod tests {
                     pixels: [pixel(), pixel()],
                 })
                 .into(),
-            turns: Turns {
+            rotations: RotationParameters {
                 intrinsics: vec![k; 3],
                 starts,
                 factor: 1.2,

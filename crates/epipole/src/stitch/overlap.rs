@@ -88,7 +88,7 @@ pub fn find_overlap(
         }
         Err(error) => return Err(error),
     };
-    if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {
+    if report.num_unique_inliers < options.min_num_inliers || report.could_be_random() {
         return Ok(None);
     }
     let homography = report.model;

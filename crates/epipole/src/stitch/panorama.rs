@@ -51,9 +51,9 @@ pub struct Panorama {
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
 /// // A rotation by 0.3 to the right.
-/// let turn = Rotation3::from_scaled_axis(Vector3::y() * -0.3);
+/// let rotation = Rotation3::from_scaled_axis(Vector3::y() * -0.3);
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(200 + i * 37 % 440), f64::from(i * 71 % 480))).collect();
-/// let p2: Vec<_> = p1.iter().map(|p| k.project(&(turn * k.ray(p)).into()).unwrap()).collect();
+/// let p2: Vec<_> = p1.iter().map(|p| k.project(&(rotation * k.ray(p)).into()).unwrap()).collect();
 /// let overlap = find_overlap([0, 1], &p1, &p2, &OverlapOptions::default(), &mut ())?.unwrap();
 /// let guess = [Intrinsics::centered(768.0, 640, 480)?; 2];
 /// let found = estimate_panorama(&guess, &[overlap], true, &mut ())?;
@@ -69,7 +69,7 @@ pub fn estimate_panorama(
     let tree = largest_tree(intrinsics.len(), overlaps)?;
     let (rotations, focal_factor) =
         estimate_rotations(intrinsics, overlaps, &tree, find_focal, monitor)?;
-    let level = leveled(&rotations);
+    let level = level_rotation(&rotations);
     let rotations: Vec<_> = rotations
         .iter()
         .map(|r| r.map(|r| r * level.transpose()))
@@ -91,7 +91,7 @@ pub fn estimate_panorama(
 /// z is their mean direction.
 ///
 /// Source: Brown & Lowe 2007, §5 (automatic panorama straightening).
-fn leveled(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
+fn level_rotation(rotations: &[Option<Matrix3<f64>>]) -> Matrix3<f64> {
     let axis = |row: usize| {
         let axes = rotations
             .iter()

@@ -82,10 +82,10 @@ impl Default for RenderOptions {
 /// use epipole::stitch::{Panorama, RenderOptions, render_panorama};
 /// // A photo of 64° to the left of another one by 0.6.
 /// let k = Intrinsics::centered(80.0, 101, 61)?;
-/// let turns = [0.0, 0.6].map(|yaw| Rotation3::from_scaled_axis(Vector3::y() * -yaw).into_inner());
+/// let matrices = [0.0, 0.6].map(|yaw| Rotation3::from_scaled_axis(Vector3::y() * -yaw).into_inner());
 /// let panorama = Panorama {
-///     pixel_from_direction: turns.iter().map(|turn| Some(k.matrix() * turn)).collect(),
-///     rotations: turns.iter().copied().map(Some).collect(),
+///     pixel_from_direction: matrices.iter().map(|rotation| Some(k.matrix() * rotation)).collect(),
+///     rotations: matrices.iter().copied().map(Some).collect(),
 ///     scale_px: 80.0,
 ///     focal_factor: None,
 /// };
@@ -155,15 +155,22 @@ mod tests {
 
     fn panorama() -> Panorama {
         let k = Intrinsics::centered(180.0, 200, 150).unwrap();
-        let turn = |yaw: f64, pitch: f64| {
-            let turns = [Vector3::x() * pitch, Vector3::y() * -yaw];
-            let [x, y] = turns.map(Rotation3::from_scaled_axis);
+        let rotation = |yaw: f64, pitch: f64| {
+            let matrices = [Vector3::x() * pitch, Vector3::y() * -yaw];
+            let [x, y] = matrices.map(Rotation3::from_scaled_axis);
             (x * y).into_inner()
         };
-        let turns = [turn(-0.45, 0.0), turn(0.0, 0.1), turn(0.4, -0.05)];
+        let matrices = [
+            rotation(-0.45, 0.0),
+            rotation(0.0, 0.1),
+            rotation(0.4, -0.05),
+        ];
         Panorama {
-            pixel_from_direction: turns.iter().map(|turn| Some(k.matrix() * turn)).collect(),
-            rotations: turns.iter().copied().map(Some).collect(),
+            pixel_from_direction: matrices
+                .iter()
+                .map(|rotation| Some(k.matrix() * rotation))
+                .collect(),
+            rotations: matrices.iter().copied().map(Some).collect(),
             scale_px: 180.0,
             focal_factor: None,
         }
@@ -175,18 +182,18 @@ mod tests {
         let (canvas, _) = Canvas::new(panorama, &sizes, surface, 1 << 30).unwrap();
         assert_eq!(picture.width() as usize, canvas.width());
         let mut worst: f64 = 0.0;
-        let mut num_seen = 0;
+        let mut num_covered = 0;
         for (u, v, pixel) in picture.enumerate_pixels() {
             if pixel.0 == [0; 3] {
                 continue;
             }
-            num_seen += 1;
+            num_covered += 1;
             let truth = truth(&canvas.direction(u as usize, v as usize));
             for (value, truth) in pixel.0.iter().zip(truth) {
                 worst = worst.max((f64::from(*value) - truth).abs());
             }
         }
-        assert!(num_seen * 5 > picture.width() * picture.height() * 3);
+        assert!(num_covered * 5 > picture.width() * picture.height() * 3);
         worst
     }
 
@@ -229,14 +236,17 @@ mod tests {
     }
 
     #[test]
-    fn a_full_turn_closes_and_a_plane_has_an_end() {
+    fn a_full_circle_closes_and_a_plane_has_an_end() {
         let k = Intrinsics::centered(100.0, 201, 101).unwrap();
-        let turns: Vec<Matrix3<f64>> = (0..6)
+        let matrices: Vec<Matrix3<f64>> = (0..6)
             .map(|n| Rotation3::from_scaled_axis(Vector3::y() * f64::from(n) * 1.05).into_inner())
             .collect();
         let panorama = Panorama {
-            pixel_from_direction: turns.iter().map(|turn| Some(k.matrix() * turn)).collect(),
-            rotations: turns.iter().copied().map(Some).collect(),
+            pixel_from_direction: matrices
+                .iter()
+                .map(|rotation| Some(k.matrix() * rotation))
+                .collect(),
+            rotations: matrices.iter().copied().map(Some).collect(),
             scale_px: 100.0,
             focal_factor: None,
         };

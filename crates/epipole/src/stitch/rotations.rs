@@ -1,6 +1,6 @@
 //! Rotations of cameras at one position, with a common focal factor.
 
-use super::jacobian::{PixelMatch, RotationsProblem, Turns};
+use super::jacobian::{PixelMatch, RotationParameters, RotationsProblem};
 use super::overlap::Overlap;
 use super::tree::Tree;
 use crate::camera::Intrinsics;
@@ -80,16 +80,16 @@ pub(super) fn estimate_rotations(
     rotations[tree.root] = Some(Matrix3::identity());
     for &[child, parent, index] in &tree.edges {
         let overlap = &overlaps[index];
-        let turn =
+        let rotation =
             rotation_of(of(overlap), &thinned(overlap), factor).ok_or(Error::Degenerate {
                 what: "the rotation of a photo",
                 why: "its matches meet in a point",
             })?;
-        let turn = match overlap.images[0] == parent {
-            true => turn,
-            false => turn.transpose(),
+        let rotation = match overlap.images[0] == parent {
+            true => rotation,
+            false => rotation.transpose(),
         };
-        rotations[child] = rotations[parent].map(|of_parent: Matrix3<f64>| turn * of_parent);
+        rotations[child] = rotations[parent].map(|of_parent: Matrix3<f64>| rotation * of_parent);
     }
     let order = std::iter::once(tree.root).chain(tree.edges.iter().map(|edge| edge[0]));
     let order: Vec<usize> = order.collect();
@@ -103,7 +103,7 @@ pub(super) fn estimate_rotations(
     });
     let problem = RotationsProblem {
         matches: matches.collect(),
-        turns: Turns {
+        rotations: RotationParameters {
             intrinsics: order.iter().map(|&image| intrinsics[image]).collect(),
             starts: (order.iter())
                 .map(|&image| rotations[image].unwrap_or_default())
@@ -115,17 +115,20 @@ pub(super) fn estimate_rotations(
     let mut parameters = DVector::zeros(problem.num_parameters());
     minimize_dense(&problem, &mut parameters, &LmOptions::default(), monitor)?;
     for (number, &image) in order.iter().enumerate() {
-        rotations[image] = Some(problem.turns.rotation(&parameters, number));
+        rotations[image] = Some(problem.rotations.rotation(&parameters, number));
     }
-    Ok((rotations, start.map(|_| problem.turns.factor(&parameters))))
+    Ok((
+        rotations,
+        start.map(|_| problem.rotations.factor(&parameters)),
+    ))
 }
 
 /// Returns the factor with the least cost; `None` at the end of the range, where every longer focal
 /// length fits.
 fn best_factor(cost: impl Fn(f64) -> f64) -> Option<f64> {
     let at = |n: usize| {
-        let share = n as f64 / (NUM_TRIED - 1) as f64;
-        libm::exp((2.0 * share - 1.0) * libm::log(WIDEST))
+        let fraction = n as f64 / (NUM_TRIED - 1) as f64;
+        libm::exp((2.0 * fraction - 1.0) * libm::log(WIDEST))
     };
     let costs: Vec<f64> = (0..NUM_TRIED).map(|n| cost(at(n))).collect();
     let best = (0..NUM_TRIED).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
@@ -156,11 +159,11 @@ fn cost_of([k1, k2]: [&Intrinsics; 2], pairs: &[[Point2<f64>; 2]], factor: f64) 
         return most;
     };
     let error_sq = |[a, b]: &[Point2<f64>; 2]| {
-        let seen = rotation * ray(k1, a, factor);
+        let rotated = rotation * ray(k1, a, factor);
         // As from a camera whose focal length is multiplied by the factor.
-        let seen = Vector3::new(seen.x, seen.y, seen.z / factor);
-        match seen.z > 0.0 {
-            true => (k2.matrix() * seen / seen.z - b.to_homogeneous())
+        let rotated = Vector3::new(rotated.x, rotated.y, rotated.z / factor);
+        match rotated.z > 0.0 {
+            true => (k2.matrix() * rotated / rotated.z - b.to_homogeneous())
                 .norm_squared()
                 .min(CLIPPED_SQ),
             false => CLIPPED_SQ,

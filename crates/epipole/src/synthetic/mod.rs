@@ -116,7 +116,7 @@ fn observe(camera: &PosedCamera, x_in_world: &Point3<f64>) -> Option<Point2<f64>
     camera.project(x_in_world).ok().filter(in_picture)
 }
 
-/// Draws points until `num` of them are seen: `see` takes a point and its index, and returns
+/// Draws points until `num` of them are seen: `observe` takes a point and its index, and returns
 /// whether it is seen.
 ///
 /// # Errors
@@ -126,7 +126,7 @@ fn draw_points(
     structure: Structure,
     num: usize,
     nothing: Error,
-    mut see: impl FnMut(&mut Random, usize, &Point3<f64>) -> bool,
+    mut observe: impl FnMut(&mut Random, usize, &Point3<f64>) -> bool,
 ) -> Result<Vec<Point3<f64>>> {
     let mut points = Vec::new();
     let mut num_tries = 0;
@@ -136,7 +136,7 @@ fn draw_points(
             return Err(nothing);
         }
         let point = structure.draw(random);
-        if see(random, points.len(), &point) {
+        if observe(random, points.len(), &point) {
             points.push(point);
         }
     }

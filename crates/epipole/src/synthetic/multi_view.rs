@@ -116,9 +116,9 @@ impl MultiViewProblem {
     /// let problem = MultiViewProblem::new(&MultiViewProblemOptions::default())?;
     /// // The whole cube is in every image.
     /// assert_eq!(problem.observations.len(), 8 * 200);
-    /// let seen = problem.observations[17];
-    /// let exact = problem.cameras[seen.camera].project(&problem.points[seen.point])?;
-    /// assert_eq!(exact, seen.pixel);
+    /// let observation = problem.observations[17];
+    /// let exact = problem.cameras[observation.camera].project(&problem.points[observation.point])?;
+    /// assert_eq!(exact, observation.pixel);
     /// # Ok(()) }
     /// ```
     pub fn new(options: &MultiViewProblemOptions) -> Result<Self> {
@@ -154,15 +154,15 @@ impl MultiViewProblem {
             num,
             nothing,
             |random, i, point| {
-                let seen: Vec<_> = (cameras.iter().enumerate())
+                let projected: Vec<_> = (cameras.iter().enumerate())
                     .filter_map(|(camera, view)| Some((camera, i, observe(view, point)?)))
                     .filter(|_| random.unit() < options.visible_fraction)
                     .collect();
-                let is_seen = seen.len() >= 2;
-                if is_seen {
-                    exact.extend(seen);
+                let is_observed = projected.len() >= 2;
+                if is_observed {
+                    exact.extend(projected);
                 }
-                is_seen
+                is_observed
             },
         )?;
         let is_inlier = choose_inliers(&mut random, exact.len(), options.outlier_fraction);
@@ -190,7 +190,10 @@ impl MultiViewProblem {
         (0..self.points.len())
             .map(|point| {
                 let rest = &self.observations[start..];
-                let length = rest.iter().take_while(|seen| seen.point == point).count();
+                let length = rest
+                    .iter()
+                    .take_while(|observation| observation.point == point)
+                    .count();
                 start += length;
                 start - length..start
             })
@@ -274,19 +277,27 @@ mod tests {
             assert_eq!(track.start, next);
             assert!(track.len() >= 2);
             next = track.end;
-            let seen = &problem.observations[track];
-            assert!(seen.iter().all(|observation| observation.point == point));
-            assert!(seen.windows(2).all(|pair| pair[0].camera < pair[1].camera));
+            let observations = &problem.observations[track];
+            assert!(
+                observations
+                    .iter()
+                    .all(|observation| observation.point == point)
+            );
+            assert!(
+                observations
+                    .windows(2)
+                    .all(|pair| pair[0].camera < pair[1].camera)
+            );
         }
         assert_eq!(next, problem.observations.len());
-        let share = next as f64 / 1600.0;
-        assert!((share - 0.6).abs() < 0.05, "{share}");
-        for seen in &problem.observations {
-            let exact = problem.cameras[seen.camera]
-                .project(&problem.points[seen.point])
+        let fraction = next as f64 / 1600.0;
+        assert!((fraction - 0.6).abs() < 0.05, "{fraction}");
+        for observations in &problem.observations {
+            let exact = problem.cameras[observations.camera]
+                .project(&problem.points[observations.point])
                 .unwrap();
-            let error_px = (seen.pixel - exact).norm();
-            assert_eq!(seen.is_inlier, error_px < 5.0, "{error_px}");
+            let error_px = (observations.pixel - exact).norm();
+            assert_eq!(observations.is_inlier, error_px < 5.0, "{error_px}");
         }
     }
 

@@ -131,12 +131,12 @@ impl TwoViewProblem {
             num,
             nothing,
             |random, i, point| {
-                let seen = observe(&camera1, point).zip(observe(&camera2, point));
-                if let Some((pixel1, pixel2)) = seen {
+                let pixels = observe(&camera1, point).zip(observe(&camera2, point));
+                if let Some((pixel1, pixel2)) = pixels {
                     pixels2.push(measured(random, &pixel2, noise_px, is_inlier[i]));
                     pixels1.push(measured(random, &pixel1, noise_px, true));
                 }
-                seen.is_some()
+                pixels.is_some()
             },
         )?;
         Ok(Self {
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turning_camera_stays_in_its_place() {
+    fn a_rotating_camera_stays_in_its_place() {
         let options = TwoViewProblemOptions {
             baseline_m: 0.0,
             ..TwoViewProblemOptions::default()

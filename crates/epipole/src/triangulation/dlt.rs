@@ -236,11 +236,11 @@ mod tests {
                 let p2 = projection(&cam2);
                 for (x, y, z) in points {
                     let point = Point3::new(x, y, z);
-                    let seen = cam2 * point;
+                    let in_cam2 = cam2 * point;
                     let pixel1 = Point2::new(x / z, y / z);
-                    let pixel2 = Point2::new(seen.x / seen.z, seen.y / seen.z);
+                    let pixel2 = Point2::new(in_cam2.x / in_cam2.z, in_cam2.y / in_cam2.z);
                     let found = triangulate_dlt(&p1, &p2, &pixel1, &pixel2);
-                    if seen.z > 0.0 {
+                    if in_cam2.z > 0.0 {
                         assert!((found.unwrap() - point).norm() < 1e-10);
                         in_front += 1;
                     } else {
@@ -307,8 +307,8 @@ mod tests {
         let mut random = Random::new(3);
         let p1 = projection(&RigidTransform::identity());
         let p2 = projection(&RigidTransform::translation(-1.0, 0.2, 0.1));
-        let odd = [f64::NAN, f64::INFINITY, 1e308, 1e-300, 0.0, -0.0];
-        let mut pixel = |k: usize| match odd.get(k % 40) {
+        let extreme = [f64::NAN, f64::INFINITY, 1e308, 1e-300, 0.0, -0.0];
+        let mut pixel = |k: usize| match extreme.get(k % 40) {
             Some(&value) => Point2::new(value, random.uniform(-1.0, 1.0)),
             None => Point2::new(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)),
         };

@@ -54,7 +54,7 @@ struct Meeting {
     /// Unit vector in the frame of camera 1.
     ray1: Vector3<f64>,
     /// R ray1.
-    turned: Vector3<f64>,
+    rotated: Vector3<f64>,
     /// Unit vector in the frame of camera 2.
     ray2: Vector3<f64>,
     /// Distances along both rays to their closest points, in units of `size`.
@@ -75,9 +75,9 @@ impl Meeting {
         };
         let rotation = cam2_from_cam1.rotation.to_rotation_matrix().into_inner();
         let t = cam2_from_cam1.translation.vector;
-        let turned = rotation * ray1;
+        let rotated = rotation * ray1;
         // sin² of the angle between the rays.
-        let determinant = turned.cross(&ray2).norm_squared();
+        let determinant = rotated.cross(&ray2).norm_squared();
         if !determinant.is_finite() || !t.iter().all(|x| x.is_finite()) {
             return Err(Error::NotFinite {
                 what: "a ray or the motion between the cameras",
@@ -101,7 +101,7 @@ impl Meeting {
             t,
             size,
             ray1,
-            turned,
+            rotated,
             ray2,
             depths,
         })
@@ -162,17 +162,17 @@ pub fn triangulate_weighted_midpoint(
     let Meeting {
         t,
         ray1,
-        turned,
+        rotated,
         ray2,
         ..
     } = meeting;
-    let across = turned.cross(&ray2).norm();
+    let across = rotated.cross(&ray2).norm();
     let (depth1, depth2) = (
         ray2.cross(&t).norm() / across,
-        turned.cross(&t).norm() / across,
+        rotated.cross(&t).norm() / across,
     );
-    let share1 = depth2 / (depth1 + depth2);
-    meeting.enlarged(ray1 * depth1 * share1 + meeting.on_ray2(depth2) * (1.0 - share1))
+    let weight1 = depth2 / (depth1 + depth2);
+    meeting.enlarged(ray1 * depth1 * weight1 + meeting.on_ray2(depth2) * (1.0 - weight1))
 }
 
 /// Triangulates the point with the smallest angular corrections of the rays, in the frame of camera
@@ -214,16 +214,16 @@ pub fn triangulate_angular(
     let Meeting {
         rotation,
         t,
-        turned,
+        rotated,
         ray2,
         ..
     } = meeting;
     let along = t.normalize();
-    let (along1, along2) = (turned.dot(&along), ray2.dot(&along));
+    let (along1, along2) = (rotated.dot(&along), ray2.dot(&along));
     // A Aᵀ. Its smallest eigenvector holds the depths up to scale: d1 R x1 − d2 x2 is closest to
     // the baseline.
     let (across1, across2) = (1.0 - along1 * along1, 1.0 - along2 * along2);
-    let both = turned.dot(&ray2) - along1 * along2;
+    let both = rotated.dot(&ray2) - along1 * along2;
     let half = 0.5 * (across1 - across2);
     let radius = (half * half + both * both).sqrt();
     let (depth1, depth2) = if half > 0.0 {
@@ -240,9 +240,9 @@ pub fn triangulate_angular(
         return Err(Error::PointBehindCamera);
     }
     // The gap between the rays is split so that both rotate by the required angle.
-    let gap = turned * depth1 + t - ray2 * depth2;
-    let share1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
-    meeting.enlarged(rotation.transpose() * (turned * depth1 - gap * share1))
+    let gap = rotated * depth1 + t - ray2 * depth2;
+    let weight1 = depth1 * depth1 / (depth1 * depth1 + depth2 * depth2);
+    meeting.enlarged(rotation.transpose() * (rotated * depth1 - gap * weight1))
 }
 
 #[cfg(test)]
@@ -322,16 +322,16 @@ mod tests {
             let Ok(point) = triangulate_angular(&motion, &ray1, &ray2) else {
                 continue;
             };
-            let turns = |x: &Point3<f64>| {
+            let angles = |x: &Point3<f64>| {
                 let sine_sq = |a: &Vector3<f64>, b: &Vector3<f64>| {
                     a.cross(b).norm_squared() / (a.norm_squared() * b.norm_squared())
                 };
                 sine_sq(&x.coords, &ray1) + sine_sq(&(motion * x).coords, &ray2)
             };
-            let least = turns(&point);
+            let least = angles(&point);
             for _ in 0..20 {
                 let step = vector(1.0) * 1e-3 * point.coords.norm();
-                assert!(turns(&(point + step)) >= least);
+                assert!(angles(&(point + step)) >= least);
             }
         }
     }
@@ -345,8 +345,8 @@ mod tests {
 
     #[test]
     fn cameras_at_the_same_place() {
-        let turn = RigidTransform::rotation(Vector3::new(0.1, -0.2, 0.0));
-        for motion in [RigidTransform::identity(), turn] {
+        let rotation_only = RigidTransform::rotation(Vector3::new(0.1, -0.2, 0.0));
+        for motion in [RigidTransform::identity(), rotation_only] {
             for ray2 in [Vector3::z(), Vector3::new(0.1, 0.3, 1.0)] {
                 for method in METHODS {
                     assert_eq!(method(&motion, &Vector3::z(), &ray2), Err(NO_BASELINE));

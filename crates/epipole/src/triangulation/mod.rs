@@ -27,7 +27,7 @@ mod starts;
 
 const NO_BASELINE: crate::Error = crate::Error::Degenerate {
     what: "the distance of a point",
-    why: "the cameras stand at the same place",
+    why: "the cameras are at the same place",
 };
 
 /// Error for a point whose coordinates overflow.

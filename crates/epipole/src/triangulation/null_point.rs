@@ -30,9 +30,9 @@ pub(super) fn null_point(p1: &[Row; 3], p2: &[Row; 3], pixels: [f64; 4]) -> Row 
     let mut x = factor.start();
     for _ in 0..MAX_STEPS {
         let next = factor.step(&x);
-        let turn = 1.0 - dot(&next, &x).abs();
+        let change = 1.0 - dot(&next, &x).abs();
         x = next;
-        if turn < CONVERGED {
+        if change < CONVERGED {
             break;
         }
     }
@@ -80,11 +80,11 @@ dispatched! {
                 };
                 let here = [x[0][l], x[1][l], x[2][l], x[3][l]];
                 let next = factor.step(&here);
-                let turn = 1.0 - dot(&next, &here).abs();
+                let change = 1.0 - dot(&next, &here).abs();
                 for i in 0..4 {
                     x[i][l] = if moves[l] > 0.0 { next[i] } else { here[i] };
                 }
-                moves[l] = if turn < CONVERGED { 0.0 } else { moves[l] };
+                moves[l] = if change < CONVERGED { 0.0 } else { moves[l] };
             }
             for l in 0..LANES {
                 num_moving += moves[l];
@@ -140,7 +140,7 @@ impl Factor {
     /// Solves R x = e4, which is already the null vector of an exactly singular system.
     #[inline(always)]
     fn start(&self) -> Row {
-        normalized(self.backward([0.0, 0.0, 0.0, 1.0]))
+        normalize_row(self.backward([0.0, 0.0, 0.0, 1.0]))
     }
 
     /// Solves RᵀR y = x for the direction of y.
@@ -151,7 +151,7 @@ impl Factor {
         let y1 = (x[1] - r01 * y0) * self.inverse[1];
         let y2 = (x[2] - r02 * y0 - r12 * y1) * self.inverse[2];
         let y3 = (x[3] - r03 * y0 - r13 * y1 - r23 * y2) * self.inverse[3];
-        normalized(self.backward(normalized([y0, y1, y2, y3])))
+        normalize_row(self.backward(normalize_row([y0, y1, y2, y3])))
     }
 
     /// Solves R x = b.
@@ -209,7 +209,7 @@ fn reciprocal(value: f64, tiny: f64) -> f64 {
 }
 
 #[inline(always)]
-fn normalized(x: Row) -> Row {
+fn normalize_row(x: Row) -> Row {
     // Divide by the largest entry first, so that squares neither overflow nor underflow.
     let largest = x[0].abs().max(x[1].abs()).max(x[2].abs().max(x[3].abs()));
     let mut y = [0.0; 4];

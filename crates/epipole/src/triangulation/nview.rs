@@ -4,7 +4,7 @@ use super::nview_problem::{Problem, baseline_unit};
 use super::starts::robust_minimum;
 use super::{BEYOND_NUMBERS, NO_BASELINE};
 use crate::camera::PosedCamera;
-use crate::epipolar::share_center;
+use crate::epipolar::have_same_center;
 use crate::math::null_space::right_singular_vectors;
 use crate::math::scaling::power_of_two;
 use crate::optim::RobustLoss;
@@ -59,7 +59,10 @@ pub fn triangulate_nview_dlt(
             got: cameras.len(),
         });
     }
-    if cameras[1..].iter().all(|c| share_center(&cameras[0], c)) {
+    if cameras[1..]
+        .iter()
+        .all(|c| have_same_center(&cameras[0], c))
+    {
         return Err(NO_BASELINE);
     }
     // Measured from the first camera, so that a distant world origin costs no precision, and in

@@ -35,8 +35,8 @@ impl FixedProblem<3> for Problem<'_> {
     fn accumulate(&self, point: &Point3<f64>, normal: &mut NormalEquations<3>) {
         for (camera, pixel) in self.cameras.iter().zip(self.pixels) {
             match camera.project(point) {
-                Ok(seen) => normal.add(
-                    &(seen - pixel),
+                Ok(projected) => normal.add(
+                    &(projected - pixel),
                     &(projection_jacobian(camera, point) * self.unit),
                     &self.loss,
                 ),
@@ -49,7 +49,7 @@ impl FixedProblem<3> for Problem<'_> {
         let mut total = 0.0;
         for (camera, pixel) in self.cameras.iter().zip(self.pixels) {
             match camera.project(point) {
-                Ok(seen) => total += 0.5 * self.loss.rho((seen - pixel).norm_squared()),
+                Ok(projected) => total += 0.5 * self.loss.rho((projected - pixel).norm_squared()),
                 Err(_) => return f64::INFINITY,
             }
         }

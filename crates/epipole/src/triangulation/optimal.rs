@@ -3,7 +3,7 @@
 use super::NO_BASELINE;
 use super::dlt::triangulate_dlt;
 use crate::camera::PosedCamera;
-use crate::epipolar::{fundamental_from_cameras, share_center};
+use crate::epipolar::{fundamental_from_cameras, have_same_center};
 use crate::math::scaling::power_of_two;
 use crate::{Error, Result};
 use nalgebra::{Matrix2, Matrix3, Point2, Point3, Vector2, Vector3};
@@ -148,7 +148,7 @@ pub fn triangulate_optimal(
     pixel1: &Point2<f64>,
     pixel2: &Point2<f64>,
 ) -> Result<Point3<f64>> {
-    if share_center(cam1, cam2) {
+    if have_same_center(cam1, cam2) {
         return Err(NO_BASELINE);
     }
     let fundamental = fundamental_from_cameras(cam1, cam2)?;
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn matches_without_a_correction_are_told_apart() {
+    fn matches_without_a_correction_are_marked() {
         let (o, off) = (Point2::origin(), Point2::new(3.0, 1.0));
         let ahead = essential_from_motion(&RigidTransform::translation(0.0, 0.0, 1.0)).unwrap();
         assert_eq!(

@@ -193,12 +193,12 @@ mod tests {
         let point = Point3::new(0.2, 0.1, 0.3);
         let sigma_px = 0.5;
         let covariance = point_covariance(&cameras, &point, sigma_px).unwrap();
-        let seen = cameras.map(|c| c.project(&point).unwrap());
+        let projected = cameras.map(|c| c.project(&point).unwrap());
         let mut random = Random::new(6);
         let count = 20_000;
         let mut spread = Matrix3::zeros();
         for _ in 0..count {
-            let [p1, p2] = seen.map(|p| {
+            let [p1, p2] = projected.map(|p| {
                 Point2::new(
                     p.x + sigma_px * random.normal(),
                     p.y + sigma_px * random.normal(),

@@ -41,7 +41,7 @@ pub(super) fn robust_minimum(
 fn fits_every_view(problem: &Problem<'_>, point: &Point3<f64>) -> bool {
     let mut views = problem.cameras.iter().zip(problem.pixels);
     views.all(|(camera, pixel)| match camera.project(point) {
-        Ok(seen) => problem.loss.weight((seen - pixel).norm_squared()) >= 0.5,
+        Ok(projected) => problem.loss.weight((projected - pixel).norm_squared()) >= 0.5,
         Err(_) => false,
     })
 }
@@ -69,8 +69,8 @@ fn best_of_pairs(problem: &Problem<'_>) -> Option<Point3<f64>> {
 fn cost_below(problem: &Problem<'_>, point: &Point3<f64>, limit: f64) -> Option<f64> {
     let mut total = 0.0;
     for (camera, pixel) in problem.cameras.iter().zip(problem.pixels) {
-        let seen = camera.project(point).ok()?;
-        total += 0.5 * problem.loss.rho((seen - pixel).norm_squared());
+        let projected = camera.project(point).ok()?;
+        total += 0.5 * problem.loss.rho((projected - pixel).norm_squared());
         if total.is_nan() || total >= limit {
             return None;
         }

@@ -71,8 +71,8 @@ pub fn estimate_two_view(
         (Err(_), Ok(_)) => true,
         (Ok(_), Err(_)) => false,
         (Ok(f), Ok(h)) => {
-            f.could_be_chance() && !h.could_be_chance()
-                || pairs.explained_share(&h.model, &f.inliers, options)
+            f.could_be_random() && !h.could_be_random()
+                || pairs.explained_ratio(&h.model, &f.inliers, options)
                     >= options.max_homography_ratio
         }
     };
@@ -121,10 +121,10 @@ pub fn estimate_two_view(
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
+/// let rotation = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let p2: Vec<_> = p1.iter().map(|p| {
-///     let x = k.matrix() * (turn * k.ray(p));
+///     let x = k.matrix() * (rotation * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
 /// let camera = Camera::pinhole(k, 640, 480);
@@ -169,14 +169,14 @@ pub fn estimate_two_view_calibrated(
     };
     let explains = |matrix: &Matrix3<f64>| {
         epipolar.is_none_or(|inliers| {
-            pairs.explained_share(matrix, inliers, options) >= options.max_homography_ratio
+            pairs.explained_ratio(matrix, inliers, options) >= options.max_homography_ratio
         })
     };
     // A homography may explain more than a rotation, even if no epipolar geometry was found.
     let num_needed = options.max_homography_ratio * support(&homography) as f64;
     if let Ok(report) = &rotation
         && report.num_unique_inliers as f64 >= num_needed
-        && let Some(turn) = ExplainingRotation::new(
+        && let Some(explaining) = ExplainingRotation::new(
             report,
             [k1, k2],
             epipolar.iter().flat_map(|mask| pairs.different_among(mask)),
@@ -186,7 +186,7 @@ pub fn estimate_two_view_calibrated(
         let matrix = homography_of_rotation(&report.model, [k1, k2]);
         found.model = TwoViewModel::Homography(matrix / matrix.norm());
         found.configuration = Configuration::Panoramic;
-        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+        found.cam2_from_cam1 = Some(explaining.cam2_from_cam1);
         found.take_homography(&pairs, report, options);
         return Ok(found);
     }
@@ -224,7 +224,7 @@ pub fn estimate_two_view_calibrated(
         // E's motion was fitted with the intrinsics. F's, which must be projected onto them, is far
         // less exact, especially where F has fitted outliers that E rejected.
         found.cam2_from_cam1 = match &essential {
-            Ok(essential) if num_e >= options.min_num_inliers && !essential.could_be_chance() => {
+            Ok(essential) if num_e >= options.min_num_inliers && !essential.could_be_random() => {
                 Some(essential.model.cam2_from_cam1())
             }
             _ => pose_of_fundamental(&pairs, k1, k2, &report),

@@ -146,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_matches_and_none_determine_nothing_and_say_nothing() {
+    fn few_matches_and_none_determine_nothing() {
         let options = TwoViewOptions::default();
         let at = |i: usize| Point2::new((i * 97 % 800) as f64, (i * 61 % 600) as f64);
         let [p1, p2]: [Vec<_>; 2] = [0, 7].map(|by| (0..20).map(|i| at(i + by * i)).collect());
@@ -164,7 +164,7 @@ mod tests {
 
     /// Asserts that some moving inliers do not make a motion, but many do.
     #[test]
-    fn nearly_all_is_a_share() {
+    fn nearly_all_is_a_fraction() {
         let options = TwoViewOptions::default();
         let p1: Vec<_> = (0..100)
             .map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480)))

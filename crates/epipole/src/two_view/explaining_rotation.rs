@@ -22,22 +22,22 @@ impl ExplainingRotation {
     /// * `intrinsics`: intrinsics of the two cameras
     /// * `inliers`: inliers of the other model
     pub(super) fn new<'a>(
-        turn: &RansacReport<Matrix3<f64>>,
+        rotation: &RansacReport<Matrix3<f64>>,
         intrinsics: [&Intrinsics; 2],
         inliers: impl Iterator<Item = (&'a Point2<f64>, &'a Point2<f64>)>,
         options: &TwoViewOptions,
     ) -> Option<Self> {
         // A rotation always fits two matches.
-        if turn.num_unique_inliers < 3 {
+        if rotation.num_unique_inliers < 3 {
             return None;
         }
-        let homography = homography_of_rotation(&turn.model, intrinsics);
+        let homography = homography_of_rotation(&rotation.model, intrinsics);
         let (mut num_inliers, mut num_explained) = (0, 0);
         for (p1, p2) in inliers {
             num_inliers += 1;
             num_explained += usize::from(options.fits_homography(&homography, p1, p2));
         }
-        Self::if_nearly_all(&turn.model, num_explained, num_inliers, options)
+        Self::if_nearly_all(&rotation.model, num_explained, num_inliers, options)
     }
 
     /// Returns a rotation that explains `num_explained` of the inliers, if these are nearly all.

@@ -66,7 +66,7 @@ pub(super) fn in_front_of_plane(
     motions: &[PlaneMotion],
     rays1: impl Iterator<Item = Vector3<f64>> + Clone,
 ) -> Vec<(Matrix3<f64>, Vector3<f64>)> {
-    let mut kept = Vec::new();
+    let mut candidates = Vec::new();
     for motion in motions {
         let (mut in_front, mut count) = (0, 0);
         for ray1 in rays1.clone() {
@@ -76,10 +76,10 @@ pub(super) fn in_front_of_plane(
         let t = motion.cam2_from_cam1.translation.vector;
         if let (true, Some(direction)) = (2 * in_front > count, t.try_normalize(1e-12)) {
             let rotation = motion.cam2_from_cam1.rotation.to_rotation_matrix();
-            kept.push((rotation.into_inner(), direction));
+            candidates.push((rotation.into_inner(), direction));
         }
     }
-    kept
+    candidates
 }
 
 /// Returns the motion with the most support, the first of equals, and another one with nearly as
@@ -94,11 +94,11 @@ pub(super) fn best_and_rival(
     let other = best.and_then(|best| {
         let (rotation, direction) = pose(best);
         let rival = |&i: &usize| {
-            let turn = pose(i).0 * rotation.transpose();
-            let turn_rad = Rotation3::from_matrix_unchecked(turn).angle();
+            let difference = pose(i).0 * rotation.transpose();
+            let angle_rad = Rotation3::from_matrix_unchecked(difference).angle();
             let apart = (pose(i).1 - direction).norm();
             scores[i] as f64 >= AS_WELL * scores[best] as f64
-                && (turn_rad > SAME_MOTION || apart > SAME_MOTION)
+                && (angle_rad > SAME_MOTION || apart > SAME_MOTION)
         };
         (0..scores.len()).filter(rival).max_by_key(|&i| scores[i])
     });

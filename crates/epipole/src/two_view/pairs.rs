@@ -59,7 +59,7 @@ impl<'a> Pairs<'a> {
         let pairs = self.pixels1.iter().zip(self.pixels2);
         pairs
             .zip(mask)
-            .filter(|(_, kept)| **kept)
+            .filter(|(_, is_inlier)| **is_inlier)
             .map(|(pair, _)| pair)
     }
 
@@ -71,12 +71,12 @@ impl<'a> Pairs<'a> {
         let pairs = self.pixels1.iter().zip(self.pixels2);
         pairs
             .zip(mask.iter().zip(&self.is_first))
-            .filter(|(_, (kept, first))| **kept && **first)
+            .filter(|(_, (is_inlier, first))| **is_inlier && **first)
             .map(|(pair, _)| pair)
     }
 
     /// Returns the fraction of some inliers that fit a homography.
-    pub(super) fn explained_share(
+    pub(super) fn explained_ratio(
         &self,
         homography: &Matrix3<f64>,
         inliers: &[bool],
@@ -115,7 +115,7 @@ pub(super) fn inliers_of(
         }
     }
     Ok([pixels1, pixels2].map(|pixels| {
-        let kept = pixels.iter().zip(inliers).filter(|(_, is)| **is);
-        kept.map(|(pixel, _)| *pixel).collect()
+        let inlier_pairs = pixels.iter().zip(inliers).filter(|(_, is)| **is);
+        inlier_pairs.map(|(pixel, _)| *pixel).collect()
     }))
 }

@@ -109,7 +109,7 @@ impl TwoViewReport {
         self.num_left_out = report.num_left_out;
         self.required_iterations = report.required_iterations;
         self.stop = report.stop;
-        if report.num_unique_inliers < options.min_num_inliers || report.could_be_chance() {
+        if report.num_unique_inliers < options.min_num_inliers || report.could_be_random() {
             self.configuration = Configuration::Degenerate;
             self.cam2_from_cam1 = None;
             self.other_cam2_from_cam1 = None;

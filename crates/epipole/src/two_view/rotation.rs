@@ -68,17 +68,18 @@ impl RotationEstimator {
         };
         let rotation = *rotation;
         move |index| {
-            let turned = rotation * self.rays[index][0];
+            let rotated = rotation * self.rays[index][0];
             match &self.geometry {
                 // A ray rotated behind the camera would also project to a pixel.
-                Geometry::Pinhole(_) if turned.z <= 0.0 => f64::INFINITY,
+                Geometry::Pinhole(_) if rotated.z <= 0.0 => f64::INFINITY,
                 Geometry::Pinhole(_) => {
                     let (x1, x2) = self.matches.pair(index);
                     transfer_error_sq(&homography, &x1, &x2)
                 }
-                Geometry::Lens(seen) => {
-                    seen[index].map_or(f64::INFINITY, |seen| seen.error_sq(&turned))
-                }
+                Geometry::Lens(observations) => observations[index]
+                    .map_or(f64::INFINITY, |observations| {
+                        observations.error_sq(&rotated)
+                    }),
             }
         }
     }
@@ -191,7 +192,7 @@ mod tests {
     use nalgebra::Rotation3;
 
     #[test]
-    fn a_turn_of_a_fisheye_is_found_among_outliers() {
+    fn a_rotation_of_a_fisheye_is_found_among_outliers() {
         let mut random = Random::new(2);
         let camera = Camera {
             lens: Lens::Fisheye(Fisheye::default()),
@@ -205,10 +206,10 @@ mod tests {
                 let (sin, cos) = libm::sincos(random.uniform(0.0, core::f64::consts::TAU));
                 let (away, along) = libm::sincos(angle);
                 let ray = Vector3::new(away * cos, away * sin, along);
-                let seen = |ray: Vector3<f64>| camera.project(&ray.into()).unwrap();
+                let project = |ray: Vector3<f64>| camera.project(&ray.into()).unwrap();
                 let off = if i % 3 == 0 { 50.0 } else { 0.0 };
-                let p2 = seen(truth * ray);
-                (seen(ray), Point2::new(p2.x + off, p2.y - 0.5 * off))
+                let p2 = project(truth * ray);
+                (project(ray), Point2::new(p2.x + off, p2.y - 0.5 * off))
             })
             .unzip();
         let options = RansacOptions::default();
@@ -218,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_is_found_among_outliers() {
+    fn a_rotation_is_found_among_outliers() {
         let mut random = Random::new(1);
         let k = Intrinsics::centered(600.0, 640, 480).unwrap();
         let camera = Camera::pinhole(k, 640, 480);
@@ -255,10 +256,10 @@ mod tests {
         let in_crowd = report.inliers[100..].iter().filter(|is| **is).count();
         assert!(in_crowd > 1);
         let of_h = h.num_inliers - h.num_unique_inliers;
-        let of_turn = report.num_inliers - report.num_unique_inliers;
+        let num_repeated = report.num_inliers - report.num_unique_inliers;
         assert!(
-            of_turn + 1 == in_crowd || of_turn == in_crowd,
-            "{of_turn} {of_h} {in_crowd}"
+            num_repeated + 1 == in_crowd || num_repeated == in_crowd,
+            "{num_repeated} {of_h} {in_crowd}"
         );
         assert!(
             estimate_rotation(

@@ -90,10 +90,10 @@ struct Search<'a> {
 /// use epipole::two_view::{Configuration, TwoViewOptions, estimate_two_view_calibrated, find_rotation_and_focal};
 /// use nalgebra::{Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
+/// let rotation = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.2, 0.0));
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let p2: Vec<_> = p1.iter().map(|p| {
-///     let x = k.matrix() * (turn * k.ray(p));
+///     let x = k.matrix() * (rotation * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
 /// // With the wrong 480 px this looks like a plane.
@@ -102,9 +102,9 @@ struct Search<'a> {
 /// let camera = Camera::pinhole(guess, 640, 480);
 /// let report = estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ())?;
 /// assert_eq!(report.configuration, Configuration::Planar);
-/// let turn = find_rotation_and_focal(&p1, &p2, [&camera; 2], &report.inliers, &options)?.unwrap();
-/// assert!((turn.focal_factor - 600.0 / 480.0).abs() < 1e-3);
-/// assert!((turn.cam2_from_cam1.rotation.angle() - 0.2).abs() < 1e-3);
+/// let found = find_rotation_and_focal(&p1, &p2, [&camera; 2], &report.inliers, &options)?.unwrap();
+/// assert!((found.focal_factor - 600.0 / 480.0).abs() < 1e-3);
+/// assert!((found.cam2_from_cam1.rotation.angle() - 0.2).abs() < 1e-3);
 /// # Ok(()) }
 /// ```
 pub fn find_rotation_and_focal(
@@ -136,7 +136,7 @@ pub fn find_rotation_and_focal(
     }
     // Collinear matches have no homography, and too many rotations fit.
     let homography = search.homography().ok();
-    Ok(homography.and_then(|homography| search.turn(search.cost(&homography))))
+    Ok(homography.and_then(|homography| search.rotation_and_focal(search.cost(&homography))))
 }
 
 /// Returns the undistorted pixel; `None` too far off the axis.
@@ -157,7 +157,7 @@ impl Search<'_> {
     }
 
     /// Returns the rotation, if it is as good as a homography with this cost.
-    fn turn(&self, cost: f64) -> Option<RotationAndFocal> {
+    fn rotation_and_focal(&self, cost: f64) -> Option<RotationAndFocal> {
         let count = self.pairs.len() as f64;
         let needed = self.options.max_homography_ratio * count;
         let explained = |found: &Candidate| {
@@ -326,15 +326,15 @@ mod tests {
         find_rotation_and_focal(p1, p2, [&guess; 2], &inliers, &options).unwrap()
     }
 
-    fn angle(random: &mut Random) -> Vector3<f64> {
-        let turn = random.uniform(4.0, 15.0_f64).to_radians();
+    fn random_rotation(random: &mut Random) -> Vector3<f64> {
+        let angle_rad = random.uniform(4.0, 15.0_f64).to_radians();
         let towards = random.uniform(0.0, core::f64::consts::TAU);
         let (sin, cos) = (libm::sin(towards), libm::cos(towards));
-        Vector3::new(turn * cos, turn * sin, random.uniform(-0.1, 0.1))
+        Vector3::new(angle_rad * cos, angle_rad * sin, random.uniform(-0.1, 0.1))
     }
 
     #[test]
-    fn turns_are_found_with_their_focal_length() {
+    fn rotations_are_found_with_their_focal_length() {
         for (noise_px, k1, most_off, least) in [
             (0.0, 0.0, 1e-3, 34),
             (0.3, 0.0, 0.02, 34),
@@ -354,13 +354,15 @@ mod tests {
                         _ => random.uniform(0.6, 0.9),
                     };
                 let k = intrinsics(focal_px);
-                let turn = angle(&mut random) * if seed % 2 == 0 { 0.6 } else { 1.5 };
-                let motion = RigidTransform::rotation(turn);
+                let rotation_vector =
+                    random_rotation(&mut random) * if seed % 2 == 0 { 0.6 } else { 1.5 };
+                let motion = RigidTransform::rotation(rotation_vector);
                 let lens = Distortion::from_coefficients([k1, 0.0, 0.0, 0.0, 0.0]).unwrap();
                 let bend = |p: Point2<f64>| {
                     let ray = k.ray(&p);
-                    let seen = lens.distort(&Point2::new(ray.x, ray.y));
-                    k.project(&Point3::new(seen.x, seen.y, 1.0)).unwrap()
+                    let distorted = lens.distort(&Point2::new(ray.x, ray.y));
+                    k.project(&Point3::new(distorted.x, distorted.y, 1.0))
+                        .unwrap()
                 };
                 let ahead = Vector3::z();
                 let both = matches(&mut random, &k, &motion, &ahead, noise_px, &bend).unwrap();
@@ -382,10 +384,10 @@ mod tests {
 
     /// Planes tilted by up to this angle, seen by cameras that translate and rotate.
     #[test]
-    fn planes_are_no_turns() {
+    fn planes_are_no_rotations() {
         for noise_px in [0.0, 0.3, 0.7, 1.0] {
             for tilt in [0.1, 0.3, 0.7] {
-                let mut num_seen = 0;
+                let mut num_pairs = 0;
                 for seed in 0..60 {
                     let mut random = Random::new(1000 + seed);
                     let k = intrinsics(GUESS_PX * random.uniform(0.6, 2.0));
@@ -393,23 +395,23 @@ mod tests {
                     let normal = Vector3::new(part(tilt), part(tilt), 1.0).normalize();
                     let step = Vector3::new(part(1.0), part(0.6), part(0.5)).normalize();
                     let step = step * random.uniform(0.08, 0.4);
-                    let turn = angle(&mut random) * random.uniform(0.0, 0.8);
-                    let motion = RigidTransform::new(step, turn);
+                    let rotation_vector = random_rotation(&mut random) * random.uniform(0.0, 0.8);
+                    let motion = RigidTransform::new(step, rotation_vector);
                     let both = matches(&mut random, &k, &motion, &normal, noise_px, &|p| p);
                     let Some(both) = both else {
                         continue;
                     };
-                    num_seen += 1;
+                    num_pairs += 1;
                     assert_eq!(judge(&both), None, "{noise_px} {tilt} {seed}");
                 }
-                assert!(num_seen > 40, "{noise_px} {tilt}: {num_seen}");
+                assert!(num_pairs > 40, "{noise_px} {tilt}: {num_pairs}");
             }
         }
     }
 
     /// The image moves uniformly, as for ever smaller rotations with ever longer focal lengths.
     #[test]
-    fn a_step_aside_before_a_wall_is_no_turn() {
+    fn a_step_aside_before_a_wall_is_no_rotation() {
         for noise_px in [0.0, 0.3, 0.7] {
             for seed in 0..20 {
                 let mut random = Random::new(seed);
@@ -427,9 +429,9 @@ mod tests {
     }
 
     #[test]
-    fn too_little_to_tell_is_nothing_and_nonsense_an_error() {
+    fn too_few_data_give_none_and_nonsense_an_error() {
         let camera = camera(GUESS_PX);
-        let ask = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
+        let find = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
             find_rotation_and_focal(p1, p2, [&camera; 2], &vec![true; p1.len()], &options())
         };
         let at = |i: usize| Point2::new((i * 97 % 800) as f64, (i * 61 % 600) as f64);
@@ -442,16 +444,16 @@ mod tests {
             (&line, &line),
             (&some, &line),
         ] {
-            assert_eq!(ask(p1, p2), Ok(None));
+            assert_eq!(find(p1, p2), Ok(None));
         }
-        let error = ask(&some, &some[1..]).unwrap_err();
+        let error = find(&some, &some[1..]).unwrap_err();
         assert!(matches!(error, Error::SizeMismatch { .. }));
         let mut broken = some.clone();
         broken[3].x = f64::NAN;
-        let error = ask(&some, &broken).unwrap_err();
+        let error = find(&some, &broken).unwrap_err();
         assert!(matches!(error, Error::NotFinite { .. }));
         // A match infinitely far off is left out.
         broken[3].x = f64::INFINITY;
-        assert!(ask(&some, &broken).is_ok());
+        assert!(find(&some, &broken).is_ok());
     }
 }

@@ -34,10 +34,10 @@ const MAX_SAMPLES: usize = 300;
 /// use epipole::two_view::{TwoViewOptions, find_explaining_rotation};
 /// use nalgebra::{Matrix3, Point2, Rotation3, Vector3};
 /// let k = Intrinsics::centered(600.0, 640, 480)?;
-/// let turn = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
+/// let rotation = Rotation3::from_scaled_axis(Vector3::new(0.0, 0.1, 0.0));
 /// let p1: Vec<_> = (0..60).map(|i| Point2::new(f64::from(i * 37 % 640), f64::from(i * 71 % 480))).collect();
 /// let p2: Vec<_> = p1.iter().map(|p| {
-///     let x = k.matrix() * (turn * k.ray(p));
+///     let x = k.matrix() * (rotation * k.ray(p));
 ///     Point2::new(x.x / x.z, x.y / x.z)
 /// }).collect();
 /// let options = TwoViewOptions::default();
@@ -45,8 +45,8 @@ const MAX_SAMPLES: usize = 300;
 /// let camera = Camera::pinhole(k, 640, 480);
 /// let pose = estimate_relative_pose(&p1, &p2, [&camera; 2], &options.ransac, &mut ())?;
 /// assert_eq!(pose.num_inliers, 60);
-/// let turn = find_explaining_rotation(&p1, &p2, [&camera; 2], &pose.inliers, &options)?;
-/// assert_eq!(turn.map(|turn| turn.num_explained), Some(60));
+/// let explaining = find_explaining_rotation(&p1, &p2, [&camera; 2], &pose.inliers, &options)?;
+/// assert_eq!(explaining.map(|explaining| explaining.num_explained), Some(60));
 /// # Ok(()) }
 /// ```
 pub fn find_explaining_rotation(
@@ -59,8 +59,13 @@ pub fn find_explaining_rotation(
     options.check()?;
     let [in1, in2] = inliers_of(pixels1, pixels2, inliers)?;
     if !Camera::are_pinholes(cameras) {
-        let [seen1, seen2] = ObservedMatches::new(&in1, &in2, cameras)?.seen;
-        let pairs: Vec<_> = seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect();
+        let [observations1, observations2] =
+            ObservedMatches::new(&in1, &in2, cameras)?.observations;
+        let pairs: Vec<_> = observations1
+            .into_iter()
+            .zip(observations2)
+            .map(|(a, b)| [a, b])
+            .collect();
         return Ok(find_rotation_through_lenses(&pairs, options));
     }
     let [k1, k2] = cameras.map(|camera| &camera.intrinsics);

@@ -32,8 +32,10 @@ pub(super) fn find_rotation_through_lenses(
     let mut best = Matrix3::identity();
     for _ in 0..ROUNDS {
         let rotation = align_rays(order[..num_used].iter().map(|&i| &rays[i]))?;
-        for ((error_sq, [_, seen2]), [ray1, _]) in errors_sq.iter_mut().zip(inliers).zip(&rays) {
-            *error_sq = seen2.error_sq(&(rotation * ray1));
+        for ((error_sq, [_, observation2]), [ray1, _]) in
+            errors_sq.iter_mut().zip(inliers).zip(&rays)
+        {
+            *error_sq = observation2.error_sq(&(rotation * ray1));
         }
         order.sort_by(|&a, &b| errors_sq[a].total_cmp(&errors_sq[b]).then(a.cmp(&b)));
         num_used = half;
@@ -54,7 +56,7 @@ mod tests {
     use nalgebra::{Point3, Vector2};
 
     #[test]
-    fn a_turn_is_told_from_a_step() {
+    fn a_rotation_is_distinguished_from_a_step() {
         let camera = Camera {
             intrinsics: Intrinsics::centered(250.0, 800, 800).unwrap(),
             lens: Lens::Fisheye(Fisheye::default()),
@@ -63,9 +65,9 @@ mod tests {
         };
         for (step, expected) in [(0.0, true), (0.3, false)] {
             let mut random = Random::new(8);
-            let turn = Vector3::new(0.1, 0.4, 0.2);
-            let motion = RigidTransform::new(Vector3::new(step, 0.0, 0.0), turn);
-            let mut see = |x: Point3<f64>| {
+            let rotation_vector = Vector3::new(0.1, 0.4, 0.2);
+            let motion = RigidTransform::new(Vector3::new(step, 0.0, 0.0), rotation_vector);
+            let mut observe = |x: Point3<f64>| {
                 let noise = Vector2::from_fn(|_, _| 0.5 * random.normal());
                 camera
                     .observe(&(camera.project(&x).unwrap() + noise))
@@ -81,7 +83,7 @@ mod tests {
                     0 => Point3::new(x.y, x.x, x.z),
                     _ => motion * x,
                 };
-                pairs.push([see(x), see(other)]);
+                pairs.push([observe(x), observe(other)]);
             }
             let found = find_rotation_through_lenses(&pairs, &TwoViewOptions::default());
             assert_eq!(found.is_some(), expected);

@@ -38,21 +38,21 @@ impl<'a> Searches<'a> {
         options: &TwoViewOptions,
         set: &MatchSet,
     ) -> TwoViewOptions {
-        let given_px = options.ransac.max_error_px;
+        let input_px = options.ransac.max_error_px;
         if options.ransac.threshold == ThresholdKind::Given {
             return *options;
         }
         let f = FundamentalEstimator::new(set.clone());
         let found = self.ransac(f, &options.ransac);
         if let Ok(report) = found
-            && !report.could_be_chance()
+            && !report.could_be_random()
         {
             return options.within(report.max_error_px);
         }
         let h = HomographyEstimator::new(set.clone());
         let found = self.ransac(h, &options.ransac);
         let of_f = |h_px: f64| h_px / options.within(1.0).in_two_dimensions().max_error_px;
-        options.within(found.map_or(given_px, |report| of_f(report.max_error_px)))
+        options.within(found.map_or(input_px, |report| of_f(report.max_error_px)))
     }
 
     /// Searches by RANSAC.
@@ -73,10 +73,14 @@ impl<'a> Searches<'a> {
         if self.canceled {
             return Err(Error::Canceled);
         }
-        let share = |count: usize| count as f32 / MOST as f32;
-        let from = share(self.count);
+        let fraction = |count: usize| count as f32 / MOST as f32;
+        let from = fraction(self.count);
         self.count += 1;
-        let report = run(&mut Part::new(&mut *self.monitor, from, share(self.count)));
+        let report = run(&mut Part::new(
+            &mut *self.monitor,
+            from,
+            fraction(self.count),
+        ));
         match &report {
             Ok(report) => self.iterations += report.iterations,
             Err(Error::NoConsensus { iterations, .. }) => self.iterations += iterations,

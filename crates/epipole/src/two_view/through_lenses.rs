@@ -53,7 +53,7 @@ pub(super) fn estimate_through_lenses(
     let options = &options.within(epipolar.max_error_px);
     let motion = epipolar.model.cam2_from_cam1();
     let is_degenerate =
-        epipolar.num_unique_inliers < options.min_num_inliers || epipolar.could_be_chance();
+        epipolar.num_unique_inliers < options.min_num_inliers || epipolar.could_be_random();
     let mut found = TwoViewReport {
         configuration: Configuration::General,
         model: TwoViewModel::Essential(epipolar.model.essential()),
@@ -79,16 +79,16 @@ pub(super) fn estimate_through_lenses(
     let of_motion = Inliers::new(pixels1, pixels2, cameras, &found.inliers)?;
     let [in1, in2] = &of_motion.pixels;
     let all = vec![true; in1.len()];
-    let turn = find_explaining_rotation(in1, in2, cameras, &all, options)?;
+    let explaining = find_explaining_rotation(in1, in2, cameras, &all, options)?;
     let plane = find_plane_through_lenses(in1, in2, cameras, options);
-    let flat = if let Some(turn) = turn {
+    let flat = if let Some(explaining) = explaining {
         found.configuration = Configuration::Panoramic;
-        found.cam2_from_cam1 = Some(turn.cam2_from_cam1);
-        let rotation = turn.cam2_from_cam1.rotation.to_rotation_matrix();
+        found.cam2_from_cam1 = Some(explaining.cam2_from_cam1);
+        let rotation = explaining.cam2_from_cam1.rotation.to_rotation_matrix();
         Some(rotation.into_inner() / 3.0_f64.sqrt())
     } else if let Some(plane) = plane {
         found.configuration = Configuration::Planar;
-        let motions = planar_motions(&of_motion.seen, &motion, &plane, options);
+        let motions = planar_motions(&of_motion.observations, &motion, &plane, options);
         [found.cam2_from_cam1, found.other_cam2_from_cam1] = motions;
         Some(plane.model)
     } else {
@@ -99,10 +99,11 @@ pub(super) fn estimate_through_lenses(
         found.model = TwoViewModel::Homography(homography);
         let max_error_px = options.in_two_dimensions().max_error_px;
         let observed = ObservedMatches::new(pixels1, pixels2, cameras)?;
-        let [seen1, seen2] = &observed.seen;
+        let [observations1, observations2] = &observed.observations;
         let fits = |place: &Option<usize>| {
             place.is_some_and(|i| {
-                seen2[i].error_sq(&(homography * seen1[i].ray())) < max_error_px * max_error_px
+                observations2[i].error_sq(&(homography * observations1[i].ray()))
+                    < max_error_px * max_error_px
             })
         };
         found.inliers = observed
@@ -114,10 +115,12 @@ pub(super) fn estimate_through_lenses(
             .collect();
         found.num_inliers = found.inliers.iter().filter(|is| **is).count();
     }
-    if let (Some(motion), false) = (&found.cam2_from_cam1, turn.is_some()) {
+    if let (Some(motion), false) = (&found.cam2_from_cam1, explaining.is_some()) {
         let inliers = Inliers::new(pixels1, pixels2, cameras, &found.inliers)?;
-        let mut angles: Vec<f64> = (inliers.seen.iter())
-            .map(|[seen1, seen2]| (motion.rotation * seen1.ray()).angle(&seen2.ray()))
+        let mut angles: Vec<f64> = (inliers.observations.iter())
+            .map(|[observation1, observation2]| {
+                (motion.rotation * observation1.ray()).angle(&observation2.ray())
+            })
             .collect();
         let middle = angles.len() / 2;
         found.median_triangulation_angle_rad =
@@ -129,7 +132,7 @@ pub(super) fn estimate_through_lenses(
 /// Unique matches that fit a model.
 struct Inliers {
     pixels: [Vec<Point2<f64>>; 2],
-    seen: Vec<[Observation; 2]>,
+    observations: Vec<[Observation; 2]>,
 }
 
 impl Inliers {
@@ -139,13 +142,17 @@ impl Inliers {
         cameras: [&Camera; 2],
         mask: &[bool],
     ) -> Result<Self> {
-        let kept = super::pairs::inliers_of(pixels1, pixels2, mask)?;
-        let observed = ObservedMatches::new(&kept[0], &kept[1], cameras)?;
-        let [seen1, seen2] = observed.seen;
+        let inlier_pixels = super::pairs::inliers_of(pixels1, pixels2, mask)?;
+        let observed = ObservedMatches::new(&inlier_pixels[0], &inlier_pixels[1], cameras)?;
+        let [observations1, observations2] = observed.observations;
         let first = observed.matches.unique().first_occurrences();
         Ok(Self {
-            pixels: kept.map(|pixels| first.iter().map(|&i| pixels[i]).collect()),
-            seen: seen1.into_iter().zip(seen2).map(|(a, b)| [a, b]).collect(),
+            pixels: inlier_pixels.map(|pixels| first.iter().map(|&i| pixels[i]).collect()),
+            observations: observations1
+                .into_iter()
+                .zip(observations2)
+                .map(|(a, b)| [a, b])
+                .collect(),
         })
     }
 }
@@ -161,7 +168,7 @@ fn planar_motions(
     options: &TwoViewOptions,
 ) -> [Option<RigidTransform>; 2] {
     let on_plane = inliers.iter().zip(&plane.inliers).filter(|(_, is)| **is);
-    let rays1 = on_plane.map(|([seen1, _], _)| seen1.ray());
+    let rays1 = on_plane.map(|([observation1, _], _)| observation1.ray());
     // Rays are pixels of a camera with K = I.
     let of_rays = Intrinsics::new(1.0, 1.0, 0.0, 0.0);
     let decomposed = of_rays.and_then(|k| decompose_homography(&plane.model, &k, &k));
@@ -175,8 +182,8 @@ fn planar_motions(
     }
     let max_error_px = options.ransac.max_error_px;
     let score = |motion: &RigidTransform| {
-        let fits = |[seen1, seen2]: &&[Observation; 2]| {
-            tangent_sampson_px(motion, seen1, seen2) < max_error_px
+        let fits = |[observation1, observation2]: &&[Observation; 2]| {
+            tangent_sampson_px(motion, observation1, observation2) < max_error_px
         };
         inliers.iter().filter(fits).count()
     };
@@ -198,29 +205,33 @@ mod tests {
     use nalgebra::Point3;
 
     /// Matches with half a pixel of noise, every tenth wrong.
-    fn seen(
+    fn observations(
         camera: &Camera,
         motion: &RigidTransform,
         point: impl Fn(&mut Random) -> Point3<f64>,
     ) -> [Vec<Point2<f64>>; 2] {
         let mut random = Random::new(4);
-        let mut seen = [Vec::new(), Vec::new()];
-        while seen[0].len() < 240 {
+        let mut observations = [Vec::new(), Vec::new()];
+        while observations[0].len() < 240 {
             let x = point(&mut random);
-            let mut see = |x: &Point3<f64>, off_px: f64| {
+            let mut observe = |x: &Point3<f64>, off_px: f64| {
                 let off = Point2::new(random.normal(), random.normal()).coords * off_px;
                 let pixel = camera.project(x).ok()? + off;
                 let inside = 0.0..800.0;
                 let is_inside = inside.contains(&pixel.x) && inside.contains(&pixel.y);
                 is_inside.then_some(pixel)
             };
-            let off_px = if seen[0].len() % 10 == 0 { 50.0 } else { 0.5 };
-            if let (Some(one), Some(two)) = (see(&x, 0.5), see(&(motion * x), off_px)) {
-                seen[0].push(one);
-                seen[1].push(two);
+            let off_px = if observations[0].len() % 10 == 0 {
+                50.0
+            } else {
+                0.5
+            };
+            if let (Some(one), Some(two)) = (observe(&x, 0.5), observe(&(motion * x), off_px)) {
+                observations[0].push(one);
+                observations[1].push(two);
             }
         }
-        seen
+        observations
     }
 
     fn camera(lens: Lens, focal_px: f64) -> Camera {
@@ -244,19 +255,19 @@ mod tests {
     }
 
     #[test]
-    fn depth_a_plane_and_a_turn_are_told_apart_by_wide_and_by_narrow_lenses() {
+    fn wide_and_narrow_lenses_distinguish_depth_plane_and_rotation() {
         let fisheye = Lens::Fisheye(Fisheye {
             coefficients: [-0.02, 0.004, 0.0, 0.0],
         });
         let narrow = Lens::Division(Division { k: -0.2 });
-        let turn = Vector3::new(0.03, -0.1, 0.05);
-        let step = RigidTransform::new(Vector3::new(-0.5, 0.1, 0.2), turn);
-        let still = RigidTransform::rotation(turn);
+        let rotation_vector = Vector3::new(0.03, -0.1, 0.05);
+        let step = RigidTransform::new(Vector3::new(-0.5, 0.1, 0.2), rotation_vector);
+        let still = RigidTransform::rotation(rotation_vector);
         let options = TwoViewOptions::default().within(2.0);
         for (lens, focal_px) in [(fisheye, 260.0), (narrow, 1400.0)] {
             let run = |motion, point: fn(&mut Random) -> Point3<f64>| {
                 let camera = camera(lens, focal_px);
-                let [p1, p2] = seen(&camera, motion, point);
+                let [p1, p2] = observations(&camera, motion, point);
                 estimate_two_view_calibrated(&p1, &p2, [&camera; 2], &options, &mut ()).unwrap()
             };
             let general = run(&step, room);
@@ -301,7 +312,7 @@ mod tests {
     fn few_matches_are_degenerate_or_refused() {
         let camera = camera(Lens::Fisheye(Fisheye::default()), 260.0);
         let step = RigidTransform::translation(-0.5, 0.0, 0.0);
-        let [p1, p2] = seen(&camera, &step, room);
+        let [p1, p2] = observations(&camera, &step, room);
         let options = TwoViewOptions::default().within(2.0);
         let run = |num: usize| {
             let (p1, p2) = (&p1[..num], &p2[..num]);

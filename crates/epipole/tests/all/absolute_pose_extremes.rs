@@ -89,11 +89,12 @@ fn refinement_does_not_depend_on_where_the_origin_is() {
     let mut random = Random::new(1);
     for _ in 0..20 {
         let scene = Scene::new(&mut random);
-        let turn = vector(&mut random) * 0.01;
+        let rotation_vector = vector(&mut random) * 0.01;
         let refined = |shift: &Vector3<f64>| {
             let points = scene.points(shift, 1.0);
             let truth = scene.truth(shift, 1.0);
-            let start = RigidTransform::new(Vector3::new(0.02, -0.01, 0.03), turn) * truth;
+            let start =
+                RigidTransform::new(Vector3::new(0.02, -0.01, 0.03), rotation_vector) * truth;
             let loss = RobustLoss::Trivial;
             let found = refine_absolute_pose(
                 &start,

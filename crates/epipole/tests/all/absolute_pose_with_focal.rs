@@ -140,7 +140,7 @@ fn exact_points_give_the_truth() {
 
 /// A plane that faces the camera looks the same from every distance with its focal length.
 #[test]
-fn a_plane_in_front_tells_nothing() {
+fn a_frontal_plane_determines_no_focal_length() {
     let mut random = Random::new(3);
     let k = Intrinsics::new(700.0, 700.0, CENTER.x, CENTER.y).unwrap();
     let (mut points, mut pixels) = (Vec::new(), Vec::new());
@@ -199,9 +199,9 @@ fn bad_input_is_refused() {
     let line: Vec<_> = (0..50)
         .map(|i| Point3::new(f64::from(i), 2.0 * f64::from(i), 90.0 - f64::from(i)))
         .collect();
-    let seen: Vec<_> = line.iter().map(|x| scene.k.project(x).unwrap()).collect();
+    let line_pixels: Vec<_> = line.iter().map(|x| scene.k.project(x).unwrap()).collect();
     assert!(matches!(
-        run(&line, &seen, &CENTER),
+        run(&line, &line_pixels, &CENTER),
         Err(Error::NoConsensus { .. })
     ));
 }

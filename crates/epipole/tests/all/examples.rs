@@ -92,7 +92,7 @@ fn foreign(source: &str) -> Vec<String> {
 }
 
 #[test]
-fn an_example_needs_this_crate_alone() {
+fn an_example_needs_only_this_crate() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let this = include_str!("examples.rs");
     let (mut examples, mark) = (0, "#[path = \"../../examples/");

@@ -25,9 +25,9 @@ struct Change {
 }
 
 impl Change {
-    fn new(turn: [f64; 3], shift: [f64; 3], scale: f64) -> Self {
+    fn new(rotation_vector: [f64; 3], shift: [f64; 3], scale: f64) -> Self {
         Self {
-            rotation: UnitQuaternion::from_scaled_axis(Vector3::from(turn)),
+            rotation: UnitQuaternion::from_scaled_axis(Vector3::from(rotation_vector)),
             shift: Vector3::from(shift) * scale,
             scale,
         }
@@ -80,7 +80,12 @@ fn point(random: &mut Random) -> Point3<f64> {
 }
 
 /// Projection of a point, with Gaussian noise.
-fn seen(random: &mut Random, camera: &PosedCamera, x: &Point3<f64>, noise_px: f64) -> Point2<f64> {
+fn observe(
+    random: &mut Random,
+    camera: &PosedCamera,
+    x: &Point3<f64>,
+    noise_px: f64,
+) -> Point2<f64> {
     let p = camera.project(x).unwrap();
     Point2::new(
         p.x + noise_px * random.normal(),
@@ -114,16 +119,16 @@ proptest! {
     #[test]
     fn points_move_with_the_world(
         seed in 0_u64..1000,
-        turn in prop::array::uniform3(-3.0_f64..3.0),
+        rotation_vector in prop::array::uniform3(-3.0_f64..3.0),
         shift in prop::array::uniform3(-50.0_f64..50.0),
         scale_exponent in -6.0_f64..6.0,
     ) {
-        let change = Change::new(turn, shift, libm::exp10(scale_exponent));
+        let change = Change::new(rotation_vector, shift, libm::exp10(scale_exponent));
         let mut random = Random::new(seed);
         let truth = point(&mut random);
         let cameras: Vec<PosedCamera> = [-2.0, 0.0, 2.0].map(|x| camera(&mut random, x)).to_vec();
         let pixels: Vec<_> =
-            cameras.iter().map(|c| seen(&mut random, c, &truth, 1.0)).collect();
+            cameras.iter().map(|c| observe(&mut random, c, &truth, 1.0)).collect();
         let moved: Vec<PosedCamera> = cameras.iter().map(|c| change.camera(c)).collect();
         let same = |before: &Point3<f64>, after: &Point3<f64>, tolerance: f64| {
             (change.point(before) - after).norm() < tolerance * change.scale
@@ -145,8 +150,8 @@ proptest! {
 
         let before = point_covariance(&cameras, &truth, 0.5).unwrap();
         let after = point_covariance(&moved, &change.point(&truth), 0.5).unwrap();
-        let turned = change.rotation.to_rotation_matrix();
-        let expected = turned * before * turned.transpose() * (change.scale * change.scale);
+        let rotation = change.rotation.to_rotation_matrix();
+        let expected = rotation * before * rotation.transpose() * (change.scale * change.scale);
         prop_assert!((after - expected).norm() < 1e-8 * expected.norm());
     }
 
@@ -160,7 +165,7 @@ proptest! {
         let mut random = Random::new(seed);
         let truth = point(&mut random);
         let cameras = [-2.0, 2.0].map(|x| camera(&mut random, x));
-        let rays = cameras.map(|c| c.camera.intrinsics.ray(&seen(&mut random, &c, &truth, 1.0)));
+        let rays = cameras.map(|c| c.camera.intrinsics.ray(&observe(&mut random, &c, &truth, 1.0)));
         let motion = relative_motion(&cameras[0].cam_from_world, &cameras[1].cam_from_world);
         let mut enlarged = motion;
         enlarged.translation.vector *= scale;
@@ -182,7 +187,7 @@ proptest! {
         let cameras: Vec<PosedCamera> =
             (0..5).map(|i| camera(&mut random, f64::from(i) - 2.0)).collect();
         let pixels: Vec<_> =
-            cameras.iter().map(|c| seen(&mut random, c, &truth, 1.0)).collect();
+            cameras.iter().map(|c| observe(&mut random, c, &truth, 1.0)).collect();
         let (other_cameras, other_pixels) = (rotated(&cameras, places), rotated(&pixels, places));
 
         // One pixel of noise moves the point by 0.01 and more. Beside the bend of a loss the search
@@ -204,16 +209,16 @@ proptest! {
     #[test]
     fn absolute_poses_move_with_the_world(
         seed in 0_u64..1000,
-        turn in prop::array::uniform3(-3.0_f64..3.0),
+        rotation_vector in prop::array::uniform3(-3.0_f64..3.0),
         shift in prop::array::uniform3(-50.0_f64..50.0),
         scale_exponent in -3.0_f64..3.0,
         places in 1_usize..30,
     ) {
-        let change = Change::new(turn, shift, libm::exp10(scale_exponent));
+        let change = Change::new(rotation_vector, shift, libm::exp10(scale_exponent));
         let mut random = Random::new(seed);
         let truth = camera(&mut random, 0.0);
         let points: Vec<_> = (0..30).map(|_| point(&mut random)).collect();
-        let pixels: Vec<_> = points.iter().map(|x| seen(&mut random, &truth, x, 0.5)).collect();
+        let pixels: Vec<_> = points.iter().map(|x| observe(&mut random, &truth, x, 0.5)).collect();
         let moved: Vec<_> = points.iter().map(|x| change.point(x)).collect();
         let k = truth.camera.intrinsics;
         // The world's origin may be far away, and a rotation moves it.
@@ -249,12 +254,12 @@ proptest! {
     #[test]
     fn three_points_move_with_the_world(
         seed in 0_u64..1000,
-        turn in prop::array::uniform3(-3.0_f64..3.0),
+        rotation_vector in prop::array::uniform3(-3.0_f64..3.0),
         shift in prop::array::uniform3(-5.0_f64..5.0),
         scale_exponent in -3.0_f64..3.0,
         places in 0_usize..3,
     ) {
-        let change = Change::new(turn, shift, libm::exp10(scale_exponent));
+        let change = Change::new(rotation_vector, shift, libm::exp10(scale_exponent));
         let mut random = Random::new(seed);
         let truth = camera(&mut random, 0.0);
         // A triangle that is neither small nor flat, for any seed.
@@ -283,8 +288,8 @@ proptest! {
         let (cam1, cam2) = (camera(&mut random, -1.0), camera(&mut random, 1.0));
         let motion = relative_motion(&cam1.cam_from_world, &cam2.cam_from_world);
         let points: Vec<_> = (0..40).map(|_| point(&mut random)).collect();
-        let p1: Vec<_> = points.iter().map(|x| seen(&mut random, &cam1, x, 0.5)).collect();
-        let p2: Vec<_> = points.iter().map(|x| seen(&mut random, &cam2, x, 0.5)).collect();
+        let p1: Vec<_> = points.iter().map(|x| observe(&mut random, &cam1, x, 0.5)).collect();
+        let p2: Vec<_> = points.iter().map(|x| observe(&mut random, &cam2, x, 0.5)).collect();
         let (k1, k2) = (cam1.camera.intrinsics, cam2.camera.intrinsics);
         let rays1: Vec<_> = p1.iter().map(|p| k1.ray(p)).collect();
         let rays2: Vec<_> = p2.iter().map(|p| k2.ray(p)).collect();
@@ -310,8 +315,8 @@ proptest! {
             let swapped = essential_5point(&five(&rays2), &five(&rays1));
             let swapped = nearest(&swapped, &best.transpose()).unwrap();
             prop_assert!(apart(&swapped.transpose(), &best) < 1e-4);
-            let turned = |rays: &[Vector3<f64>]| five(&rotated(&rays[..5], places));
-            let order = essential_5point(&turned(&rays1), &turned(&rays2));
+            let rotate = |rays: &[Vector3<f64>]| five(&rotated(&rays[..5], places));
+            let order = essential_5point(&rotate(&rays1), &rotate(&rays2));
             prop_assert!(apart(&nearest(&order, &best).unwrap(), &best) < 1e-4);
         }
 

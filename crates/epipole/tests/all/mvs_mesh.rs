@@ -95,7 +95,7 @@ fn edges(mesh: &Mesh) -> HashMap<[u32; 2], usize> {
 }
 
 #[test]
-fn a_ball_seen_from_all_sides_is_closed_and_round() {
+fn a_ball_observed_from_all_sides_is_closed_and_round() {
     let (views, maps) = ball(&eyes());
     let mesh = mesh_depth_maps(&views, &maps, &options(), &mut ()).unwrap();
     let points = &mesh.vertices.points;
@@ -160,26 +160,26 @@ fn unseen_sides_are_open_and_small_pieces_left_out() {
     }
     let all = options().with_voxel_size(Some(0.02)).with_min_triangles(1);
     let all = mesh_depth_maps(&views, &maps, &all, &mut ()).unwrap();
-    let kept = options().with_voxel_size(Some(0.02));
-    let kept = mesh_depth_maps(&views, &maps, &kept, &mut ()).unwrap();
+    let fine = options().with_voxel_size(Some(0.02));
+    let fine = mesh_depth_maps(&views, &maps, &fine, &mut ()).unwrap();
     let is_far = |mesh: &Mesh| {
         let mut points = mesh.vertices.points.iter();
         points.any(|point| point.coords.norm() > 1.5 * RADIUS)
     };
-    assert!(is_far(&all) && !is_far(&kept));
+    assert!(is_far(&all) && !is_far(&fine));
 }
 
 #[test]
 fn meshes_are_reproducible_and_can_be_canceled() {
     let (views, maps) = ball(&eyes()[..3]);
     let options = MeshOptions::default();
-    let mut shares = Vec::new();
+    let mut fractions = Vec::new();
     let mut watch = |status: epipole::progress::Status| {
-        shares.push(status.share);
+        fractions.push(status.fraction);
         ControlFlow::Continue(())
     };
     let once = mesh_depth_maps(&views, &maps, &options, &mut watch).unwrap();
-    assert!(shares.is_sorted() && shares.len() > 10);
+    assert!(fractions.is_sorted() && fractions.len() > 10);
     assert_eq!(
         once,
         mesh_depth_maps(&views, &maps, &options, &mut ()).unwrap()

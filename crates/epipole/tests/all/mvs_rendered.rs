@@ -33,9 +33,9 @@ fn camera(n: usize) -> PosedCamera {
     }
 }
 
-fn photographs() -> &'static [Photograph] {
-    static PHOTOGRAPHS: OnceLock<Vec<Photograph>> = OnceLock::new();
-    PHOTOGRAPHS.get_or_init(|| {
+fn renderings() -> &'static [Photograph] {
+    static RENDERINGS: OnceLock<Vec<Photograph>> = OnceLock::new();
+    RENDERINGS.get_or_init(|| {
         let scene = Scene::still_life();
         let render = |n| {
             scene
@@ -47,14 +47,14 @@ fn photographs() -> &'static [Photograph] {
 }
 
 fn photos() -> Vec<RgbImage> {
-    photographs()
+    renderings()
         .iter()
         .map(|photo| photo.image.clone())
         .collect()
 }
 
 fn depth_of(photo: usize, [u, v]: [u32; 2]) -> f64 {
-    f64::from(photographs()[photo].depth_m.get_pixel(u, v).0[0])
+    f64::from(renderings()[photo].depth_m.get_pixel(u, v).0[0])
 }
 
 /// Points of the scene, each with the photos that see it.
@@ -73,9 +73,9 @@ fn reconstruction() -> Reconstruction {
             .ray(&Point2::from(pixel.map(f64::from)));
         let in_cam = Point3::from(ray * depth_of(n % COUNT, pixel));
         let position = from.cam_from_world.inverse_transform_point(&in_cam);
-        let is_seen = |image: &usize| {
-            let seen = camera(*image).project(&position).unwrap();
-            let (u, v) = (seen.x.round(), seen.y.round());
+        let is_visible = |image: &usize| {
+            let projected = camera(*image).project(&position).unwrap();
+            let (u, v) = (projected.x.round(), projected.y.round());
             let inside = u >= 0.0 && v >= 0.0 && u < f64::from(SIZE.0) && v < f64::from(SIZE.1);
             inside && {
                 let depth = (camera(*image).cam_from_world * position).z;
@@ -86,7 +86,7 @@ fn reconstruction() -> Reconstruction {
             image: image as u32,
             keypoint: 0,
         };
-        let track: Vec<TrackElement> = (0..COUNT).filter(is_seen).map(element).collect();
+        let track: Vec<TrackElement> = (0..COUNT).filter(is_visible).map(element).collect();
         if track.len() > 1 {
             found.points.push(ScenePoint {
                 position,
@@ -119,7 +119,7 @@ fn depths_are_those_of_the_scene() {
     let mut errors = Vec::new();
     for (view, map) in views.iter().zip(maps) {
         assert_eq!(view.neighbors.len(), COUNT - 1);
-        let truth = &photographs()[view.photo].depth_m;
+        let truth = &renderings()[view.photo].depth_m;
         let pairs = map.depth.as_raw().iter().zip(truth.as_raw());
         errors.extend(
             pairs
@@ -197,13 +197,18 @@ fn distortion_is_removed_and_large_photos_are_downscaled() {
 fn equal_seeds_give_equal_maps_and_work_can_be_canceled() {
     let small = options().with_max_size_px(64);
     let views = prepare_views(&reconstruction(), &photos(), &small, &mut ()).unwrap();
-    let mut shares = Vec::new();
+    let mut fractions = Vec::new();
     let mut watch = |status: Status| {
-        shares.push(status.share);
+        fractions.push(status.fraction);
         ControlFlow::Continue(())
     };
     let once = estimate_depth_maps(&views, &small, &mut watch).unwrap();
-    assert!(shares.is_sorted() && shares.iter().all(|share| (0.0..=1.0).contains(share)));
+    assert!(
+        fractions.is_sorted()
+            && fractions
+                .iter()
+                .all(|fraction| (0.0..=1.0).contains(fraction))
+    );
     let again = estimate_depth_maps(&views, &small, &mut ()).unwrap();
     let bits = |maps: &[DepthMap]| -> Vec<u32> {
         let depths = maps.iter().flat_map(|map| map.depth.as_raw());
@@ -234,7 +239,7 @@ fn equal_seeds_give_equal_maps_and_work_can_be_canceled() {
 }
 
 #[test]
-fn input_that_tells_no_depth_is_refused() {
+fn input_that_determines_no_depth_is_rejected() {
     let refused = |found: &Reconstruction, photos: &[RgbImage]| {
         prepare_views(found, photos, &options(), &mut ())
             .unwrap_err()

@@ -39,11 +39,11 @@ fn wall(half: f64, z: f64, cells: u32) -> Mesh {
     }
 }
 
-/// A photo from −z, of the colors of `seen` along each ray, times a gain.
+/// A photo from −z, of the colors of `shade` along each ray, times a gain.
 fn view(
     eye: Point3<f64>,
     gain: f64,
-    seen: impl Fn(&Point3<f64>, &Vector3<f64>) -> Vector3<f64>,
+    shade: impl Fn(&Point3<f64>, &Vector3<f64>) -> Vector3<f64>,
 ) -> MvsView {
     let camera = PosedCamera {
         camera: Camera::pinhole(Intrinsics::centered(220.0, SIDE, SIDE).unwrap(), SIDE, SIDE),
@@ -51,7 +51,7 @@ fn view(
     };
     let image = RgbImage::from_fn(SIDE, SIDE, |u, v| {
         let ray = camera.ray_in_world(&Point2::new(f64::from(u), f64::from(v)));
-        let color = seen(&eye, &ray) * gain;
+        let color = shade(&eye, &ray) * gain;
         Rgb([0, 1, 2].map(|channel| color[channel].round().clamp(0.0, 255.0) as u8))
     });
     MvsView {
@@ -173,14 +173,14 @@ fn hidden_surfaces_take_no_color_of_those_before_them() {
     mesh.triangles.extend(moved);
     let red = Vector3::new(250.0, 5.0, 5.0);
     let blue = Vector3::new(10.0, 20.0, 200.0);
-    let seen = |eye: &Point3<f64>, ray: &Vector3<f64>| {
+    let shade = |eye: &Point3<f64>, ray: &Vector3<f64>| {
         let place = eye + ray * ((-0.5 - eye.z) / ray.z);
         match place.x.abs() <= 0.25 && place.y.abs() <= 0.25 {
             true => red,
             false => blue,
         }
     };
-    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, seen)).into();
+    let views: Vec<MvsView> = eyes().map(|eye| view(eye, 1.0, shade)).into();
     let found = texture(&mesh, &views);
     let is_red = |triangle: usize| color(&found, triangle, [0.4, 0.3, 0.3]).x > 128.0;
     let wrong = (0..back).filter(|&triangle| is_red(triangle)).count();
@@ -192,10 +192,10 @@ fn hidden_surfaces_take_no_color_of_those_before_them() {
     assert!(right * 10 >= 9 * (mesh.triangles.len() - back), "{right}");
 
     // One photo alone: its shadow is filled from the neighborhood, without a panic.
-    let alone = texture(&mesh, &views[..1]);
-    assert_eq!(alone.corners.len(), mesh.triangles.len());
-    let (width, height) = alone.image.dimensions();
-    for corner in alone.corners.iter().flatten() {
+    let single = texture(&mesh, &views[..1]);
+    assert_eq!(single.corners.len(), mesh.triangles.len());
+    let (width, height) = single.image.dimensions();
+    for corner in single.corners.iter().flatten() {
         assert!(
             corner.x >= 2.0 && corner.x <= width as f32 - 3.0,
             "{corner}"

@@ -21,7 +21,7 @@ fn numbers(line: &str) -> Vec<f64> {
 /// come to 13.1 mm; so must our directions with the same lengths. Our own lengths come to 6 cm on
 /// 18.7 m whatever the settings.
 #[test]
-fn kitti_turn_is_followed() {
+fn kitti_curve_is_followed() {
     let root = std::env::var_os("EPIPOLE_DATA").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data")),
         PathBuf::from,
@@ -100,8 +100,8 @@ fn kitti_turn_is_followed() {
     }
     // Nobody knows the focal length: from a quarter too long or too short it is found, as far as 20
     // frames tell it.
-    for share in [0.75, 1.25] {
-        let guess = Intrinsics::new(share * k[0], share * k[5], k[2], k[6]).expect("intrinsics");
+    for ratio in [0.75, 1.25] {
+        let guess = Intrinsics::new(ratio * k[0], ratio * k[5], k[2], k[6]).expect("intrinsics");
         let unknown = SfmInput {
             cameras: vec![Camera::pinhole(guess, width, height)],
             ..input.clone()
@@ -113,7 +113,7 @@ fn kitti_turn_is_followed() {
         let found: Vec<f64> = cameras
             .map(|camera| camera.camera.intrinsics.fu_px() / k[0])
             .collect();
-        println!("from {share} of the focal length: {}", found[0]);
+        println!("from {ratio} of the focal length: {}", found[0]);
         assert_eq!(found.len(), truth.len());
         assert!(found.iter().all(|of| (of - 1.0).abs() < 0.03), "{found:?}");
     }

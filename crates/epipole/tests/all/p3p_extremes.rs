@@ -57,8 +57,8 @@ fn tally(length: f64, tolerance: f64, mut problem: impl FnMut(&mut Random) -> Tr
         }));
         for (i, m) in found.iter().enumerate() {
             let off = |ray: &Vector3<f64>, x: &Point3<f64>| {
-                let seen = (m * x).coords;
-                seen.dot(ray) <= 0.0 || seen.normalize().cross(ray).norm() > 1e-6
+                let in_cam = (m * x).coords;
+                in_cam.dot(ray) <= 0.0 || in_cam.normalize().cross(ray).norm() > 1e-6
             };
             tally.off_their_rays += usize::from(rays.iter().zip(&points).any(|(r, x)| off(r, x)));
             let same = |other: &RigidTransform| (matrix(other) - matrix(m)).norm() < 1e-7;

@@ -25,9 +25,10 @@ fn scene_of(num: usize, seed: u64, num_wrong: usize, noise_px: f64) -> Scene {
     let mut random = Random::new(seed);
     let f = 800.0 * libm::exp(random.uniform(-0.4, 0.7));
     let k = Intrinsics::new(f, f, 500.0, 400.0).unwrap();
-    let turn = Vector3::from_fn(|_, _| 0.2 * random.normal());
+    let rotation_vector = Vector3::from_fn(|_, _| 0.2 * random.normal());
     let t = Vector3::from_fn(|_, _| random.normal()).normalize();
-    let motion = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
+    let motion =
+        RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(rotation_vector));
     let (mut p1, mut p2) = (Vec::new(), Vec::new());
     while p1.len() < num {
         let anywhere = |random: &mut Random| {
@@ -67,9 +68,9 @@ impl Scene {
     }
 
     fn error_deg(&self, found: &RigidTransform) -> f64 {
-        let turn = found.rotation.angle_to(&self.motion.rotation);
+        let angle = found.rotation.angle_to(&self.motion.rotation);
         let way = (found.translation.vector).angle(&self.motion.translation.vector);
-        turn.max(way).to_degrees()
+        angle.max(way).to_degrees()
     }
 }
 
@@ -136,7 +137,7 @@ fn a_found_focal_length_is_better_than_a_guess() {
 /// Two cameras whose axes are parallel, or that look at one thing from the same distance.
 /// Other focal lengths are compared on a part of many matches; the deviation is that of all.
 #[test]
-fn many_matches_tell_a_focal_length_exactly() {
+fn many_matches_determine_the_focal_length_exactly() {
     let mut deviations = vec![];
     for seed in 0..12 {
         let scene = scene_of(6000, seed, 3000, 0.5);
@@ -152,20 +153,20 @@ fn many_matches_tell_a_focal_length_exactly() {
 }
 
 #[test]
-fn it_is_said_where_the_focal_length_is_open() {
+fn an_undetermined_focal_length_is_reported() {
     let k = Intrinsics::new(800.0, 800.0, 500.0, 400.0).unwrap();
-    for (step, turn_rad) in [
+    for (step, angle_rad) in [
         (Vector3::new(-1.0, 0.1, 0.2), 0.0),
         (Vector3::new(-1.0, 0.0, 0.1), 0.2),
     ] {
-        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, turn_rad, 0.0));
+        let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.0, angle_rad, 0.0));
         // About a point five units ahead, for the second.
-        let t = if turn_rad == 0.0 {
+        let t = if angle_rad == 0.0 {
             step
         } else {
-            Vector3::new(0.0, 0.0, 5.0) - turn * Vector3::new(0.0, 0.0, 5.0)
+            Vector3::new(0.0, 0.0, 5.0) - rotation * Vector3::new(0.0, 0.0, 5.0)
         };
-        let motion = RigidTransform::from_parts(t.into(), turn);
+        let motion = RigidTransform::from_parts(t.into(), rotation);
         let mut random = Random::new(4);
         let (mut p1, mut p2) = (Vec::new(), Vec::new());
         for _ in 0..200 {
@@ -183,7 +184,7 @@ fn it_is_said_where_the_focal_length_is_open() {
             (found.model.focal_std_px).is_none_or(|std_px| std_px > 0.1 * found.model.focal_px);
         assert!(
             open && !found.model.constrains_focal(),
-            "{turn_rad}: {:?}",
+            "{angle_rad}: {:?}",
             found.model
         );
     }

@@ -171,11 +171,11 @@ fn the_loop_follows_the_formula_of_its_budget() {
             }
         }
     }
-    let asked = |budget| {
+    let with_budget = |budget| {
         let options = RansacOptions::default().with_budget(budget);
         fit(&points(60, 12, 0.0, 1), &options).required_iterations
     };
-    assert!(asked(Budget::WithoutReplacement) > asked(Budget::WithReplacement));
+    assert!(with_budget(Budget::WithoutReplacement) > with_budget(Budget::WithReplacement));
 }
 
 /// Data that repeat others add nothing to the confidence.
@@ -357,7 +357,7 @@ fn a_count_of_inliers_never_falls_at_the_end() {
 /// The chance of a fit depends on the location of most data: neither a few outliers far away nor a
 /// line along a row of pixels changes it.
 #[test]
-fn chance_is_judged_by_where_most_of_the_data_are() {
+fn significance_is_judged_by_the_extent_of_most_data() {
     let mut random = Random::new(1);
     let mut anywhere = |num: usize| -> Vec<Point2<f64>> {
         let mut pixel = || Point2::new(random.uniform(0.0, 1000.0), random.uniform(0.0, 1000.0));
@@ -373,15 +373,15 @@ fn chance_is_judged_by_where_most_of_the_data_are() {
         let homography = ransac(HomographyEstimator::new(set()).unwrap(), &options, &mut ());
         let fundamental = ransac(FundamentalEstimator::new(set()).unwrap(), &options, &mut ());
         assert!(
-            similarity.is_ok_and(|report| report.could_be_chance()),
+            similarity.is_ok_and(|report| report.could_be_random()),
             "{far}"
         );
         assert!(
-            homography.is_ok_and(|report| report.could_be_chance()),
+            homography.is_ok_and(|report| report.could_be_random()),
             "{far}"
         );
         assert!(
-            fundamental.is_ok_and(|report| report.could_be_chance()),
+            fundamental.is_ok_and(|report| report.could_be_random()),
             "{far}"
         );
     }
@@ -395,6 +395,6 @@ fn chance_is_judged_by_where_most_of_the_data_are() {
             })
             .collect();
         let report = fit(&on_line, &RansacOptions::default());
-        assert_eq!((report.num_inliers, report.could_be_chance()), (40, false));
+        assert_eq!((report.num_inliers, report.could_be_random()), (40, false));
     }
 }

@@ -54,14 +54,14 @@ fn load(path: &Path) -> Matches {
 
 impl Matches {
     fn with(&self, keep: impl Fn(f64) -> bool) -> (Vec<Point2<f64>>, Vec<Point2<f64>>) {
-        let kept = |p: &[Point2<f64>]| {
+        let selected = |p: &[Point2<f64>]| {
             p.iter()
                 .zip(&self.label)
                 .filter(|(_, label)| keep(**label))
                 .map(|(p, _)| *p)
                 .collect()
         };
-        (kept(&self.p1), kept(&self.p2))
+        (selected(&self.p1), selected(&self.p2))
     }
 }
 
@@ -126,15 +126,15 @@ fn labelled_scenes_fundamental() {
             let f = estimate_fundamental(&m.p1, &m.p2, &options(1.5, seed), &mut ())
                 .unwrap()
                 .model;
-            let share = |labelled: bool| {
+            let fraction = |labelled: bool| {
                 let fits: Vec<f64> = (0..m.label.len())
                     .filter(|&i| (m.label[i] >= 1.0) == labelled)
                     .map(|i| f64::from(sampson_px(&f, &m.p1[i], &m.p2[i]) < 1.5))
                     .collect();
                 mean(&fits)
             };
-            recall.push(share(true));
-            accepted.push(share(false));
+            recall.push(fraction(true));
+            accepted.push(fraction(false));
         }
     }
     println!(
@@ -223,8 +223,8 @@ fn fountain_relative_pose() {
             &mut (),
         )
         .unwrap();
-        let turn = (report.model.rotation.transpose() * rotation).trace();
-        let rotation_deg = libm::acos(((turn - 1.0) / 2.0).clamp(-1.0, 1.0)).to_degrees();
+        let trace = (report.model.rotation.transpose() * rotation).trace();
+        let rotation_deg = libm::acos(((trace - 1.0) / 2.0).clamp(-1.0, 1.0)).to_degrees();
         let direction_deg =
             libm::acos(report.model.direction.dot(&t).clamp(-1.0, 1.0)).to_degrees();
         println!(

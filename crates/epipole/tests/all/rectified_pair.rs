@@ -40,13 +40,13 @@ fn rig_of(cameras: &[PosedCamera; 2]) -> Result<Rectification> {
 }
 
 /// Some true points, in the frame of camera 1.
-fn places(camera: &PosedCamera, photograph: &Photograph) -> Vec<Point3<f64>> {
+fn places(camera: &PosedCamera, photo: &Photograph) -> Vec<Point3<f64>> {
     let pixels = (0..SIZE.1)
         .step_by(12)
         .flat_map(|v| (0..SIZE.0).step_by(12).map(move |u| (u, v)));
     let place = |(u, v): (u32, u32)| {
         let pixel = Point2::new(f64::from(u), f64::from(v));
-        let depth = f64::from(photograph.depth_m.get_pixel(u, v).0[0]);
+        let depth = f64::from(photo.depth_m.get_pixel(u, v).0[0]);
         Point3::from(camera.camera.intrinsics.ray(&pixel) * depth)
     };
     pixels.map(place).collect()
@@ -54,15 +54,15 @@ fn places(camera: &PosedCamera, photograph: &Photograph) -> Vec<Point3<f64>> {
 
 /// Depths against the truth, for cameras beside, on the other side, and above.
 #[test]
-fn depth_is_the_scene_wherever_the_second_camera_stands() {
+fn depth_is_the_scene_for_any_second_camera() {
     for aside in [[0.2, 0.0], [-0.2, 0.0], [0.0, -0.2], [0.0, 0.2]] {
-        let (cameras, photographs) = pair(Vector3::new(aside[0], aside[1], 0.0));
+        let (cameras, photos) = pair(Vector3::new(aside[0], aside[1], 0.0));
         let rig = rig_of(&cameras).unwrap();
         assert_eq!(rig.is_vertical, aside[0] == 0.0);
         let [first, end] = rig
-            .disparity_range(&places(&cameras[0], &photographs[0]))
+            .disparity_range(&places(&cameras[0], &photos[0]))
             .unwrap();
-        let images = photographs.each_ref().map(|photograph| &photograph.image);
+        let images = photos.each_ref().map(|photo| &photo.image);
         let redrawn = RectifiedPair::new(&rig, images, &mut ()).unwrap();
         let matcher = StereoSgm::default()
             .with_min_disparity_px(first)
@@ -76,7 +76,7 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
             .filter_map(|place| {
                 let pixel = cameras[0].camera.intrinsics.project(&place).unwrap();
                 let (u, v) = (pixel.x.round() as u32, pixel.y.round() as u32);
-                let truth = photographs[0].depth_m.get_pixel_checked(u, v)?;
+                let truth = photos[0].depth_m.get_pixel_checked(u, v)?;
                 Some((place.z / f64::from(truth.0[0]) - 1.0).abs())
             })
             .collect();
@@ -93,17 +93,17 @@ fn depth_is_the_scene_wherever_the_second_camera_stands() {
         let answered =
             |image: &DisparityImage| image.as_raw().iter().filter(|d| !d.is_nan()).count();
         assert_eq!(answered(&filled), redrawn.num_shown());
-        for (given, value) in found.as_raw().iter().zip(filled.as_raw()) {
-            assert!(given.is_nan() || given == value);
+        for (unfilled, value) in found.as_raw().iter().zip(filled.as_raw()) {
+            assert!(unfilled.is_nan() || unfilled == value);
         }
     }
 }
 
 #[test]
 fn borders_and_what_matches_them_have_no_answer() {
-    let (cameras, photographs) = pair(Vector3::new(0.2, 0.0, 0.0));
+    let (cameras, photos) = pair(Vector3::new(0.2, 0.0, 0.0));
     let rig = rig_of(&cameras).unwrap();
-    let images = photographs.each_ref().map(|photograph| &photograph.image);
+    let images = photos.each_ref().map(|photo| &photo.image);
     let redrawn = RectifiedPair::new(&rig, images, &mut ()).unwrap();
     let everywhere = |left: &GrayImage, _: &GrayImage| {
         let number = (left.width() * left.height()) as usize;
@@ -112,17 +112,17 @@ fn borders_and_what_matches_them_have_no_answer() {
     let found = redrawn.disparity(everywhere).unwrap();
     let black =
         |index: usize, u: u32, v: u32| redrawn.pictures()[index].get_pixel(u, v).0 == [0; 3];
-    let mut num_kept = 0;
+    let mut num_valid = 0;
     for (u, v) in (0..rig.height).flat_map(|v| (0..rig.width).map(move |u| (u, v))) {
         if found.get(u, v).is_some() {
-            num_kept += 1;
+            num_valid += 1;
             assert!(
                 u >= 30 && !black(0, u, v) && !black(1, u - 30, v),
                 "{u} {v}"
             );
         }
     }
-    assert!(num_kept > 1000 && num_kept < redrawn.num_shown());
+    assert!(num_valid > 1000 && num_valid < redrawn.num_shown());
 }
 
 #[test]

@@ -26,8 +26,9 @@ fn scene(
     noise_px: f64,
 ) -> Scene {
     let k = Intrinsics::new(800.0, 800.0, 500.0, 400.0).unwrap();
-    let turn = Vector3::from_fn(|_, _| 0.1 * random.normal());
-    let motion = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
+    let rotation_vector = Vector3::from_fn(|_, _| 0.1 * random.normal());
+    let motion =
+        RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(rotation_vector));
     let normal = Vector3::new(0.2, 0.1, -1.0).normalize();
     let mut found = Scene {
         k,
@@ -48,8 +49,8 @@ fn scene(
             } else {
                 random.uniform(2.0, 8.0)
             };
-            let seen = motion * Point3::from(ray * depth);
-            match k.project(&seen) {
+            let in_cam2 = motion * Point3::from(ray * depth);
+            match k.project(&in_cam2) {
                 Ok(q) if (0.0..1000.0).contains(&q.x) && (0.0..800.0).contains(&q.y) => q,
                 _ => continue,
             }
@@ -70,8 +71,9 @@ fn scene(
 /// The larger one of the errors of rotation and direction.
 fn error_deg(pose: &RelativePose, motion: &RigidTransform) -> f64 {
     let found = pose.cam2_from_cam1();
-    let turn = found.rotation.angle_to(&motion.rotation);
-    turn.max(pose.direction.angle(&motion.translation.vector))
+    let angle = found.rotation.angle_to(&motion.rotation);
+    angle
+        .max(pose.direction.angle(&motion.translation.vector))
         .to_degrees()
 }
 
@@ -93,8 +95,8 @@ impl Scene {
     /// Least-squares fit to the right matches alone, from the given pose.
     fn by_the_true_ones(&self, start: &RelativePose) -> RelativePose {
         let only = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-            let kept = pixels.iter().zip(&self.is_true).filter(|(_, is)| **is);
-            kept.map(|(pixel, _)| *pixel).collect()
+            let inliers = pixels.iter().zip(&self.is_true).filter(|(_, is)| **is);
+            inliers.map(|(pixel, _)| *pixel).collect()
         };
         let (p1, p2) = (only(&self.p1), only(&self.p2));
         refine_relative_pose(

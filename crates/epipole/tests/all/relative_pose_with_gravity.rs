@@ -62,8 +62,8 @@ fn scene(seed: u64, noise_px: f64, wrong: f64, tilt_rad: f64) -> Scene {
 /// The larger of the errors of rotation and of direction, radians.
 fn error(scene: &Scene, pose: &RelativePose) -> f64 {
     let found = pose.cam2_from_cam1();
-    let turn = found.rotation.angle_to(&scene.motion.rotation);
-    turn.max(
+    let angle = found.rotation.angle_to(&scene.motion.rotation);
+    angle.max(
         found
             .translation
             .vector
@@ -91,8 +91,12 @@ fn medians(noise_px: f64, wrong: f64, tilt_rad: f64, max_error_px: f64) -> (f64,
         with.push(error(&s, &report.model));
         samples += report.iterations;
         // The rotation maps one gravity direction exactly to the other.
-        let kept = report.model.rotation * g1;
-        assert!(kept.angle(g2) < 1e-6, "{}", kept.angle(g2));
+        let rotated_gravity = report.model.rotation * g1;
+        assert!(
+            rotated_gravity.angle(g2) < 1e-6,
+            "{}",
+            rotated_gravity.angle(g2)
+        );
         let free = estimate_relative_pose(
             &s.p1,
             &s.p2,
@@ -186,22 +190,22 @@ fn bad_input_is_refused() {
         );
     }
     // A camera that only rotated gives any direction or an error, but never NaN.
-    let turned: Vec<_> = (s.p1.iter())
+    let rotated: Vec<_> = (s.p1.iter())
         .map(|p| {
             s.k.project(&Point3::from(s.motion.rotation * s.k.ray(p)))
                 .unwrap()
         })
         .collect();
     let options = RansacOptions::default();
-    let turn = estimate_relative_pose_with_gravity(
+    let rotation_only = estimate_relative_pose_with_gravity(
         &s.p1,
-        &turned,
+        &rotated,
         [&Camera::pinhole(s.k, 640, 480); 2],
         [&down, &s.gravity[1]],
         &options,
         &mut (),
     );
-    if let Ok(report) = turn {
+    if let Ok(report) = rotation_only {
         assert!(report.model.rotation.iter().all(|x| x.is_finite()));
     }
 }

@@ -10,8 +10,8 @@ const TRUE_PX: f64 = 707.0;
 
 /// A drive between two rows of houses, reconstructed from 1.2 times the width as the focal length.
 ///
-/// * `turn_rad`: turn from photograph to photograph
-fn drive(turn_rad: f64) -> (SfmInput, Reconstruction) {
+/// * `yaw_rad`: turn from photograph to photograph
+fn drive(yaw_rad: f64) -> (SfmInput, Reconstruction) {
     let (width, height) = (1241, 376);
     let camera = |focal_px| {
         Camera::pinhole(
@@ -35,13 +35,13 @@ fn drive(turn_rad: f64) -> (SfmInput, Reconstruction) {
     let mut keypoint_of = Vec::new();
     let mut center = Vector3::zeros();
     for n in 0..14 {
-        let turn = turn_rad * f64::from(n);
-        let rotation = RigidTransform::new(Vector3::zeros(), -turn * Vector3::y()).rotation;
+        let angle_rad = yaw_rad * f64::from(n);
+        let rotation = RigidTransform::new(Vector3::zeros(), -angle_rad * Vector3::y()).rotation;
         let posed = PosedCamera {
             camera: camera(TRUE_PX),
             cam_from_world: RigidTransform::from_parts((-(rotation * center)).into(), rotation),
         };
-        center += 0.8 * Vector3::new(libm::sin(turn), 0.0, libm::cos(turn));
+        center += 0.8 * Vector3::new(libm::sin(angle_rad), 0.0, libm::cos(angle_rad));
         let mut image = SfmImage::default();
         let mut keypoints = vec![None; points.len()];
         for (index, point) in points.iter().enumerate() {
@@ -85,7 +85,7 @@ fn focal_px(found: &Reconstruction) -> f64 {
 }
 
 #[test]
-fn a_straight_drive_is_said_not_to_tell_its_focal_length() {
+fn a_straight_drive_is_reported_not_to_determine_its_focal_length() {
     let (input, found) = drive(0.0);
     // Everything fits, with a focal length far from the true one.
     assert_eq!(found.num_registered(), 14);
@@ -95,7 +95,7 @@ fn a_straight_drive_is_said_not_to_tell_its_focal_length() {
 }
 
 #[test]
-fn a_drive_around_a_corner_tells_its_focal_length() {
+fn a_drive_around_a_corner_determines_its_focal_length() {
     let (input, found) = drive(0.06);
     assert!(
         (focal_px(&found) / TRUE_PX - 1.0).abs() < 0.02,
@@ -149,7 +149,7 @@ fn a_bent_lens_is_corrected() {
 }
 
 #[test]
-fn a_lens_that_is_as_given_stays() {
+fn a_correct_initial_lens_stays() {
     let (mut input, _) = drive(0.06);
     input.cameras[0].intrinsics = Intrinsics::centered(TRUE_PX, 1241, 376).unwrap();
     let found = reconstruct(&input, &SfmOptions::default(), &mut ()).unwrap();

@@ -43,7 +43,7 @@ fn lens(kind: LensKind) -> Lens {
     Lens::from_coefficients(kind, numbers).unwrap()
 }
 
-fn seen_through(lens: Lens) -> Camera {
+fn camera_of(lens: Lens) -> Camera {
     Camera {
         lens,
         ..Camera::pinhole(k(), SIZE, SIZE)
@@ -64,7 +64,7 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
     let mut world = World {
         cameras: Vec::new(),
         input: SfmInput {
-            cameras: vec![seen_through(making.lens)],
+            cameras: vec![camera_of(making.lens)],
             ..SfmInput::default()
         },
     };
@@ -72,11 +72,11 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
     for n in 0..count {
         let center = Vector3::new(0.4 * random.normal(), 0.2 * random.normal(), -3.0)
             + Vector3::z() * (n as f64);
-        let turn = 0.15 * Vector3::from_fn(|_, _| random.normal());
-        let rotation = RigidTransform::new(Vector3::zeros(), turn);
+        let rotation_vector = 0.15 * Vector3::from_fn(|_, _| random.normal());
+        let rotation = RigidTransform::new(Vector3::zeros(), rotation_vector);
         let shift = -(rotation.rotation * (making.step * center));
         let camera = PosedCamera {
-            camera: seen_through(making.lens),
+            camera: camera_of(making.lens),
             cam_from_world: RigidTransform::from_parts(shift.into(), rotation.rotation),
         };
         let mut image = SfmImage {
@@ -89,11 +89,12 @@ fn hall(count: usize, making: Making, seed: u64) -> World {
             if p.angle(&Vector3::z()) > making.half_deg.to_radians() {
                 continue;
             }
-            let Some(seen) = making.lens.project(&p) else {
+            let Some(distorted) = making.lens.project(&p) else {
                 continue;
             };
             let noise = Vector2::from_fn(|_, _| making.noise_px * random.normal());
-            let pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0) + noise;
+            let pixel =
+                Point2::new(300.0 * distorted.x + 501.0, 302.0 * distorted.y + 497.0) + noise;
             let inside = 0.0..f64::from(SIZE);
             if inside.contains(&pixel.x) && inside.contains(&pixel.y) {
                 keypoints[index] = Some(image.keypoints.len() as u32);
@@ -202,7 +203,7 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     );
     world.input.cameras = vec![Camera {
         intrinsics: Intrinsics::new(306.0, 308.04, 501.0, 497.0).unwrap(),
-        ..seen_through(Fisheye::default().into())
+        ..camera_of(Fisheye::default().into())
     }];
     let start = SfmOptions::default();
     let options = start
@@ -232,8 +233,8 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
     let off = off_centers(&world, &result);
     assert!(off < 0.02, "{off}");
     // Kept as they were, they do not fit.
-    let kept = run(&world, &start);
-    let worse = kept
+    let from_known_lens = run(&world, &start);
+    let worse = from_known_lens
         .components
         .first()
         .map_or(0, |found| found.num_observations());
@@ -241,7 +242,7 @@ fn focal_length_and_coefficients_are_found_from_a_wrong_start() {
 }
 
 #[test]
-fn rational_and_division_lenses_keep_the_errors_of_the_photograph() {
+fn rational_and_division_lenses_keep_errors_in_image_pixels() {
     for kind in [LensKind::Rational, LensKind::Division] {
         let making = Making {
             lens: lens(kind),
@@ -276,17 +277,17 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
                 .ray(&k.ray(pixel).xy().into())
                 .unwrap();
             // Beyond 50° there is no projection; keypoints there are random.
-            let seen = brown
+            let distorted = brown
                 .project(&ray)
                 .filter(|_| ray.angle(&Vector3::z()) < 50f64.to_radians());
-            let seen = seen.unwrap_or(Point2::new(pixel.y * 0.01, pixel.x * -0.01));
-            *pixel = Point2::new(300.0 * seen.x + 501.0, 302.0 * seen.y + 497.0);
+            let distorted = distorted.unwrap_or(Point2::new(pixel.y * 0.01, pixel.x * -0.01));
+            *pixel = Point2::new(300.0 * distorted.x + 501.0, 302.0 * distorted.y + 497.0);
         }
     }
     world.input.cameras = (0..6)
         .map(|image| match image % 2 {
-            0 => seen_through(brown),
-            _ => seen_through(lens(LensKind::Fisheye)),
+            0 => camera_of(brown),
+            _ => camera_of(lens(LensKind::Fisheye)),
         })
         .collect();
     let result = run(&world, &SfmOptions::default());
@@ -305,7 +306,7 @@ fn a_fisheye_and_a_usual_lens_share_a_world() {
 }
 
 #[test]
-fn a_fisheye_that_only_turned_begins_nothing() {
+fn a_fisheye_that_only_rotated_begins_nothing() {
     let world = hall(
         2,
         Making {
@@ -341,12 +342,15 @@ fn a_fisheye_that_only_turned_begins_nothing() {
 fn lenses_that_mean_nothing_get_a_sentence_or_an_empty_result() {
     let mut world = hall(3, fisheye(), 6);
     let options = SfmOptions::default();
-    let with = |coefficients| seen_through(Fisheye { coefficients }.into());
+    let with = |coefficients| camera_of(Fisheye { coefficients }.into());
     for k in [f64::NAN, f64::NEG_INFINITY] {
         world.input.cameras = vec![with([0.0, 0.0, k, 0.0])];
         let refused = reconstruct(&world.input, &options, &mut ());
-        let told = refused.unwrap_err().to_string();
-        assert!(told.contains("every coefficient of the lens"), "{told}");
+        let message = refused.unwrap_err().to_string();
+        assert!(
+            message.contains("every coefficient of the lens"),
+            "{message}"
+        );
         let images = [&world.input.images[0], &world.input.images[1]];
         let pair = &world.input.pairs[0];
         assert!(verify_matches(pair, images, [&with([k; 4]); 2], &options, &mut ()).is_err());
@@ -412,15 +416,18 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
             false => random.uniform(2.5, 6.0),
         };
         let x = Point3::new(aside[0], aside[1], depth);
-        let seen = [x, motion * x].map(|x| {
-            let seen = making.lens.project(&x.coords)?;
+        let distorted = [x, motion * x].map(|x| {
+            let distorted = making.lens.project(&x.coords)?;
             let noise = Vector2::from_fn(|_, _| making.noise_px * random.normal());
             let center = k.principal_point();
-            let pixel = Point2::new(k.fu_px() * seen.x + center.x, k.fv_px() * seen.y + center.y);
+            let pixel = Point2::new(
+                k.fu_px() * distorted.x + center.x,
+                k.fv_px() * distorted.y + center.y,
+            );
             let is_inside = pixel.iter().all(|x| (0.0..f64::from(SIZE)).contains(x));
             is_inside.then_some(pixel + noise)
         });
-        if let [Some(one), Some(two)] = seen {
+        if let [Some(one), Some(two)] = distorted {
             images[0].keypoints.push(one);
             images[1].keypoints.push(two);
         }
@@ -432,7 +439,7 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
     };
     let camera = Camera {
         intrinsics: k,
-        ..seen_through(making.lens)
+        ..camera_of(making.lens)
     };
     let options = SfmOptions::default();
     let found = verify_matches(
@@ -447,10 +454,10 @@ fn pair_of(making: Making, half_deg: f64, motion: &RigidTransform, is_wall: bool
 
 /// Narrow lenses of every model pass the same checks as pinhole cameras, and so do wide ones.
 #[test]
-fn planes_and_turns_are_told_from_depth_through_every_lens() {
-    let turn = Vector3::new(0.04, -0.06, 0.03);
-    let step = RigidTransform::new(Vector3::new(-0.4, 0.1, 0.1), turn);
-    let still = RigidTransform::rotation(turn);
+fn planes_and_rotations_are_distinguished_from_depth_through_every_lens() {
+    let rotation_vector = Vector3::new(0.04, -0.06, 0.03);
+    let step = RigidTransform::new(Vector3::new(-0.4, 0.1, 0.1), rotation_vector);
+    let still = RigidTransform::rotation(rotation_vector);
     for (kind, half_deg) in [
         (LensKind::Brown, 15.0),
         (LensKind::Division, 15.0),
@@ -462,8 +469,8 @@ fn planes_and_turns_are_told_from_depth_through_every_lens() {
             lens: lens(kind),
             ..fisheye()
         };
-        let told = |motion, is_wall| pair_of(making, half_deg, motion, is_wall);
-        let deep = told(&step, false);
+        let classified = |motion, is_wall| pair_of(making, half_deg, motion, is_wall);
+        let deep = classified(&step, false);
         assert!(
             !deep.is_flat && deep.median_angle_rad > 0.02,
             "{kind:?} {half_deg} {:?}",
@@ -471,17 +478,17 @@ fn planes_and_turns_are_told_from_depth_through_every_lens() {
         );
         // A plane alone does not determine which of two motions is right, but it does show a
         // motion.
-        let wall = told(&step, true);
+        let wall = classified(&step, true);
         assert!(
             wall.is_flat && wall.median_angle_rad > 0.0,
             "{kind:?} {half_deg} {:?}",
             (wall.is_flat, wall.median_angle_rad)
         );
-        let turned = told(&still, false);
+        let rotated = classified(&still, false);
         assert!(
-            turned.is_flat && turned.median_angle_rad == 0.0,
+            rotated.is_flat && rotated.median_angle_rad == 0.0,
             "{kind:?} {half_deg} {:?}",
-            (turned.is_flat, turned.median_angle_rad)
+            (rotated.is_flat, rotated.median_angle_rad)
         );
     }
 }

@@ -47,12 +47,13 @@ impl Texture {
     fn pixel(&self, u: f64, v: u32) -> f64 {
         let begin = u * FINE as f64;
         let whole = begin.floor();
-        let share = begin - whole;
+        let fraction = begin - whole;
         let at = |k: usize| {
             let column = (whole as isize + k as isize).clamp(0, self.columns as isize - 1);
             self.values[v as usize * self.columns + column as usize]
         };
-        let sum: f64 = (1..FINE).map(at).sum::<f64>() + at(0) * (1.0 - share) + at(FINE) * share;
+        let sum: f64 =
+            (1..FINE).map(at).sum::<f64>() + at(0) * (1.0 - fraction) + at(FINE) * fraction;
         sum / FINE as f64
     }
 
@@ -207,8 +208,8 @@ fn what_is_hidden_gets_no_answer_and_is_filled_with_the_background() {
         .with_num_disparities(32)
         .with_filter(DisparityFilter::default().with_max_gap_px(0));
     let found = matcher.compute(&left, &right, &mut ()).unwrap();
-    let seen = |u: u32, v: u32| (!is_hidden(u, v)).then(|| truth(u, v));
-    let (answered, good, _) = score(&found, 20, seen);
+    let visible_truth = |u: u32, v: u32| (!is_hidden(u, v)).then(|| truth(u, v));
+    let (answered, good, _) = score(&found, 20, visible_truth);
     assert!(answered > 0.95, "{answered} answered");
     assert!(good > 0.98, "{good} within 1 px");
     let hidden = |u: u32, v: u32| is_hidden(u, v).then(|| truth(u, v));
@@ -396,16 +397,16 @@ fn work_can_be_watched_and_stopped() {
     let (left, right) = wall(6.0, 100, 90);
     for paths in [StereoPaths::Four, StereoPaths::Five, StereoPaths::Eight] {
         let matcher = StereoSgm::default().with_paths(paths);
-        let mut shares = vec![];
+        let mut fractions = vec![];
         let mut watch = |status: Status| {
             assert_eq!(status.stage, Stage::DenseMatching);
-            shares.push(status.share);
+            fractions.push(status.fraction);
             ControlFlow::Continue(())
         };
         let watched = matcher.compute(&left, &right, &mut watch).unwrap();
         assert_eq!(watched, matcher.compute(&left, &right, &mut ()).unwrap());
-        assert!(shares.len() > 3);
-        assert!(shares.is_sorted() && shares.iter().all(|s| (0.0..=1.0).contains(s)));
+        assert!(fractions.len() > 3);
+        assert!(fractions.is_sorted() && fractions.iter().all(|s| (0.0..=1.0).contains(s)));
         for stop_at in [0, 2] {
             let mut calls = 0;
             let mut stop = |_| {

@@ -43,10 +43,11 @@ fn moved(p: &Point2<f64>, noise_px: f64, random: &mut Random) -> Point2<f64> {
 fn scene(seed: u64, wrong: f64, noise_px: f64, planar: bool) -> Scene {
     let mut random = Random::new(seed);
     let k = Intrinsics::new(800.0, 800.0, 500.0, 400.0).unwrap();
-    let turn = Vector3::from_fn(|_, _| 0.1 * random.normal());
+    let rotation_vector = Vector3::from_fn(|_, _| 0.1 * random.normal());
     let way = [1.0, 0.3, 0.5].map(|size| size * random.normal());
     let t = 0.7 * Vector3::from(way).normalize();
-    let motion = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
+    let motion =
+        RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(rotation_vector));
     let slope = [0, 1].map(|_| 0.2 * random.normal());
     let plane = Vector3::new(slope[0], slope[1], -1.0).normalize() / 5.0;
     let (mut p1, mut p2) = (Vec::new(), Vec::new());
@@ -92,9 +93,9 @@ type Outcome = (f64, f64);
 
 impl Scene {
     fn pose_error_deg(&self, found: &RigidTransform) -> f64 {
-        let turn = found.rotation.angle_to(&self.motion.rotation);
+        let angle = found.rotation.angle_to(&self.motion.rotation);
         let way = (found.translation.vector).angle(&self.motion.translation.vector);
-        turn.max(way).to_degrees()
+        angle.max(way).to_degrees()
     }
 
     fn essential(&self, options: &RansacOptions) -> Outcome {
@@ -114,8 +115,8 @@ impl Scene {
         let report = estimate_fundamental(&self.p1, &self.p2, options, &mut ()).unwrap();
         let essential = self.k.matrix().transpose() * report.model * self.k.matrix();
         let inliers = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-            let kept = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
-            kept.map(|(pixel, _)| *pixel).collect()
+            let selected = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
+            selected.map(|(pixel, _)| *pixel).collect()
         };
         let (in1, in2) = (inliers(&self.p1), inliers(&self.p2));
         let motions = decompose_essential(&essential).unwrap();
@@ -127,8 +128,8 @@ impl Scene {
     /// The error is the mean of the four corners', in pixels.
     fn homography(&self, options: &RansacOptions) -> Outcome {
         let report = estimate_homography(&self.p1, &self.p2, options, &mut ()).unwrap();
-        let turn = self.motion.rotation.to_rotation_matrix().into_inner();
-        let rays = turn - self.motion.translation.vector * self.plane.transpose();
+        let rotation = self.motion.rotation.to_rotation_matrix().into_inner();
+        let rays = rotation - self.motion.translation.vector * self.plane.transpose();
         let truth = self.k.matrix() * rays * self.k.inverse_matrix();
         let map = |h: &Matrix3<f64>, (u, v): (f64, f64)| {
             Point2::from_homogeneous(h * Vector3::new(u, v, 1.0)).unwrap()
@@ -142,8 +143,8 @@ impl Scene {
 
 /// The mean over all thresholds up to the limit of the share of errors below them, in percent.
 fn auc(errors: impl Iterator<Item = f64>, limit: f64) -> f64 {
-    let shares: Vec<f64> = errors.map(|error| (1.0 - error / limit).max(0.0)).collect();
-    100.0 * shares.iter().sum::<f64>() / shares.len() as f64
+    let scores: Vec<f64> = errors.map(|error| (1.0 - error / limit).max(0.0)).collect();
+    100.0 * scores.iter().sum::<f64>() / scores.len() as f64
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -177,10 +178,10 @@ fn compare(
             continue;
         }
         let options = within(max_error_px);
-        let given = auc(scenes.iter().map(|s| estimate(s, &options).0), limit);
+        let fixed = auc(scenes.iter().map(|s| estimate(s, &options).0), limit);
         assert!(
-            ours > given - 2.0,
-            "noise {noise_px}: {ours} {given} at {max_error_px}"
+            ours > fixed - 2.0,
+            "noise {noise_px}: {ours} {fixed} at {max_error_px}"
         );
     }
     for (_, max_error_px) in &found {
@@ -269,7 +270,7 @@ fn inliers_are_within_the_threshold_found() {
         assert_eq!(error_px < report.max_error_px, *inlier);
     }
     assert_eq!(report.stop, StopReason::Confident);
-    assert!(!report.could_be_chance());
+    assert!(!report.could_be_random());
 }
 
 /// E, F, H and the rotation are compared within one threshold.
@@ -340,25 +341,25 @@ fn bad_input_is_refused_and_never_gives_a_strange_threshold() {
     // Nothing but wrong matches.
     let nothing = scene(5, 1.0, 0.0, false);
     let report = estimate_fundamental(&nothing.p1, &nothing.p2, &options, &mut ()).unwrap();
-    assert!(sane(report.max_error_px) && report.could_be_chance());
+    assert!(sane(report.max_error_px) && report.could_be_random());
 }
 
 #[test]
-fn shares_rise_over_all_runs_and_the_search_can_be_canceled() {
+fn progress_rises_over_all_runs_and_the_search_can_be_canceled() {
     let points: Vec<_> = (0..100)
         .map(|i| Point2::new(f64::from(i), f64::from(i * 7 % 3)))
         .collect();
     let run = |monitor: &mut dyn Monitor| {
         ransac(LineEstimator::new(&points).unwrap(), &from_noise(), monitor)
     };
-    let mut shares = Vec::new();
+    let mut fractions = Vec::new();
     let mut watch = |status: Status| {
-        shares.push(status.share);
+        fractions.push(status.fraction);
         ControlFlow::Continue(())
     };
     assert!(run(&mut watch).unwrap().iterations >= 600);
-    assert!(shares.len() > 15 && shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
-    let canceled = run(&mut |status: Status| match status.share > 0.2 {
+    assert!(fractions.len() > 15 && fractions.is_sorted() && fractions.iter().all(|s| *s <= 1.0));
+    let canceled = run(&mut |status: Status| match status.fraction > 0.2 {
         true => ControlFlow::Break(()),
         false => ControlFlow::Continue(()),
     });

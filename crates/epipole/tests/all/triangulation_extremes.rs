@@ -74,23 +74,23 @@ fn one_wrong_view_does_not_matter() {
             for _ in 0..200 {
                 let cameras = row_of_cameras(&mut random, count);
                 let truth = point(&mut random);
-                let mut seen = pixels(&mut random, &cameras, &truth, 0.5);
+                let mut observed = pixels(&mut random, &cameras, &truth, 0.5);
                 let wrong = random.below(count);
-                let right = seen[wrong];
+                let right = observed[wrong];
                 // Clearly wrong: a view that is off by a few pixels may fit where all views do.
-                while (seen[wrong] - right).norm() < 20.0 {
-                    seen[wrong] = noisy(&mut random, right, 100.0);
+                while (observed[wrong] - right).norm() < 20.0 {
+                    observed[wrong] = noisy(&mut random, right, 100.0);
                 }
-                let found = triangulate_nview(&cameras, &seen, loss).unwrap();
+                let found = triangulate_nview(&cameras, &observed, loss).unwrap();
                 let off = (found.point_in_world - truth).norm();
                 close_to_truth += usize::from(off < 0.5);
                 // As good a minimum as the right views alone lead to.
-                let (mut right_cameras, mut right_seen) = (cameras.clone(), seen.clone());
+                let (mut right_cameras, mut right_observed) = (cameras.clone(), observed.clone());
                 right_cameras.remove(wrong);
-                right_seen.remove(wrong);
-                let right = triangulate_nview(&right_cameras, &right_seen, loss).unwrap();
+                right_observed.remove(wrong);
+                let right = triangulate_nview(&right_cameras, &right_observed, loss).unwrap();
                 let cost = |x: &Point3<f64>| -> f64 {
-                    let views = cameras.iter().zip(&seen);
+                    let views = cameras.iter().zip(&observed);
                     let residuals = views.map(|(c, p)| c.project(x).map(|q| q - p));
                     let costs =
                         residuals.map(|r| r.map_or(f64::INFINITY, |r| loss.rho(r.norm_squared())));
@@ -114,12 +114,12 @@ fn views_without_a_point_are_refused_with_every_loss() {
     let mut random = Random::new(6);
     let cameras = row_of_cameras(&mut random, 4);
     let truth = point(&mut random);
-    let seen = pixels(&mut random, &cameras, &truth, 0.0);
+    let observed = pixels(&mut random, &cameras, &truth, 0.0);
     let loss = RobustLoss::Truncated { width: 3.0 };
     for bad in [f64::NAN, f64::INFINITY] {
-        let mut seen = seen.clone();
-        seen[1].x = bad;
-        let found = triangulate_nview(&cameras, &seen, loss);
+        let mut observed = observed.clone();
+        observed[1].x = bad;
+        let found = triangulate_nview(&cameras, &observed, loss);
         assert!(matches!(found, Err(Error::NotFinite { .. })), "{found:?}");
     }
     // All rays run apart.
@@ -146,7 +146,7 @@ fn points_do_not_depend_on_the_unit_of_length() {
         let cameras = row_of_cameras(&mut random, 4);
         let truth = point(&mut random);
         let exact = pixels(&mut random, &cameras, &truth, 0.0);
-        let seen = pixels(&mut random, &cameras, &truth, 0.5);
+        let observed = pixels(&mut random, &cameras, &truth, 0.5);
         for scale in [1e-100, 1e-30, 1e-12, 1e-6, 1e6, 1e12, 1e30, 1e100] {
             let other = enlarged(&cameras, scale);
             let same = |found: Point3<f64>, expected: &Point3<f64>, tolerance: f64| {
@@ -156,8 +156,8 @@ fn points_do_not_depend_on_the_unit_of_length() {
             // The search ends where steps are negligible. One pixel of noise moves a point by 0.01
             // and more.
             for loss in [RobustLoss::Trivial, RobustLoss::Cauchy { width: 1.0 }] {
-                let expected = triangulate_nview(&cameras, &seen, loss).unwrap();
-                let found = triangulate_nview(&other, &seen, loss).unwrap();
+                let expected = triangulate_nview(&cameras, &observed, loss).unwrap();
+                let found = triangulate_nview(&other, &observed, loss).unwrap();
                 same(found.point_in_world, &expected.point_in_world, 1e-6);
                 assert!((found.rms_error_px - expected.rms_error_px).abs() < 1e-6);
             }
@@ -166,8 +166,9 @@ fn points_do_not_depend_on_the_unit_of_length() {
             let found = triangulate_dlt(&p1, &p2, &exact[0], &exact[3]).unwrap();
             same(found, &truth, 1e-9);
             let expected =
-                triangulate_optimal(&cameras[0], &cameras[3], &seen[0], &seen[3]).unwrap();
-            let found = triangulate_optimal(&other[0], &other[3], &seen[0], &seen[3]).unwrap();
+                triangulate_optimal(&cameras[0], &cameras[3], &observed[0], &observed[3]).unwrap();
+            let found =
+                triangulate_optimal(&other[0], &other[3], &observed[0], &observed[3]).unwrap();
             same(found, &expected, 1e-9);
         }
     }
@@ -191,11 +192,11 @@ fn parallel_rays_are_parallel_in_every_unit() {
             (70.0, Ok(10.0)),
             (7e-4, Ok(1e6)),
         ] {
-            let seen = [center, Point2::new(320.0 - disparity_px, 240.0)];
+            let observed = [center, Point2::new(320.0 - disparity_px, 240.0)];
             for found in [
-                triangulate_dlt(&p1, &p2, &seen[0], &seen[1]),
-                triangulate_nview_dlt(&cameras, &seen),
-                triangulate_optimal(&cameras[0], &cameras[1], &seen[0], &seen[1]),
+                triangulate_dlt(&p1, &p2, &observed[0], &observed[1]),
+                triangulate_nview_dlt(&cameras, &observed),
+                triangulate_optimal(&cameras[0], &cameras[1], &observed[0], &observed[1]),
             ] {
                 match (&found, &expected) {
                     (Ok(x), Ok(depth)) => {

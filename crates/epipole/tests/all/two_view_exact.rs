@@ -71,10 +71,10 @@ impl Pair {
     /// Rotation and direction are true up to `tolerance`.
     fn check(&self, motion: &RigidTransform, tolerance: f64) {
         let truth = self.motion();
-        let turn = motion.rotation.angle_to(&truth.rotation);
+        let angle = motion.rotation.angle_to(&truth.rotation);
         let (t, direction) = (motion.translation.vector, truth.translation.vector);
         let off = (t.normalize() - direction.normalize()).norm();
-        assert!(turn < tolerance && off < tolerance, "{turn} {off}");
+        assert!(angle < tolerance && off < tolerance, "{angle} {off}");
     }
 
     /// The angles at which the true points see both cameras, in order.
@@ -153,10 +153,10 @@ fn rays(
     well_posed: bool,
 ) -> (RigidTransform, Vec<Vector3<f64>>, Vec<Vector3<f64>>) {
     let direction = |random: &mut Random| Vector3::from_fn(|_, _| random.normal()).normalize();
-    let turn = UnitQuaternion::from_scaled_axis(
+    let rotation = UnitQuaternion::from_scaled_axis(
         direction(random) * random.uniform(0.0, std::f64::consts::PI),
     );
-    let motion = RigidTransform::from_parts(direction(random).into(), turn);
+    let motion = RigidTransform::from_parts(direction(random).into(), rotation);
     let (mut rays1, mut rays2) = (Vec::new(), Vec::new());
     while rays1.len() < num_rays {
         let ray1 = direction(random);
@@ -244,7 +244,7 @@ fn essential_matrices_of_few_and_of_many_matches() {
 
 /// Repeated matches do not change the result.
 #[test]
-fn repeated_matches_do_not_change_what_is_seen() {
+fn repeated_matches_do_not_change_the_result() {
     let k = Intrinsics::centered(700.0, 800, 600).unwrap();
     let motion = RigidTransform::new(Vector3::new(-0.8, 0.1, 0.1), Vector3::new(0.02, 0.1, -0.03));
     let mut random = Random::new(8);
@@ -260,12 +260,12 @@ fn repeated_matches_do_not_change_what_is_seen() {
             } else {
                 5.0 + 0.2 * x
             };
-            let seen = Point3::new(x, y, z);
-            p1.push(k.project(&seen).unwrap());
-            p2.push(k.project(&(motion * seen)).unwrap());
+            let point = Point3::new(x, y, z);
+            p1.push(k.project(&point).unwrap());
+            p2.push(k.project(&(motion * point)).unwrap());
         }
         let choice = TwoViewOptions::default();
-        let see = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
+        let estimate = |p1: &[Point2<f64>], p2: &[Point2<f64>]| {
             [
                 estimate_two_view(p1, p2, &choice, &mut ())
                     .unwrap()
@@ -281,7 +281,7 @@ fn repeated_matches_do_not_change_what_is_seen() {
                 .configuration,
             ]
         };
-        let once = see(&p1, &p2);
+        let once = estimate(&p1, &p2);
         let repeated = if num_elsewhere > 6 {
             num_elsewhere..100
         } else {
@@ -290,7 +290,7 @@ fn repeated_matches_do_not_change_what_is_seen() {
         let (more1, more2) = (p1[repeated.clone()].repeat(40), p2[repeated].repeat(40));
         p1.extend(more1);
         p2.extend(more2);
-        assert_eq!(see(&p1, &p2), once);
+        assert_eq!(estimate(&p1, &p2), once);
         let expected = if num_elsewhere > 6 {
             Configuration::General
         } else {
@@ -301,7 +301,7 @@ fn repeated_matches_do_not_change_what_is_seen() {
 }
 
 #[test]
-fn too_few_matches_are_told_by_what_would_be_enough() {
+fn too_few_matches_are_reported_with_the_number_needed() {
     let k = Intrinsics::centered(700.0, 800, 600).unwrap();
     let at = |i: usize| Point2::new((i * 37 % 100) as f64, (i * 71 % 90) as f64);
     let p1: Vec<_> = (0..3).map(at).collect();
@@ -336,11 +336,11 @@ fn too_few_matches_are_told_by_what_would_be_enough() {
         ),
         "{error:?}"
     );
-    for share in [-0.1, f64::NAN] {
-        let options = TwoViewOptions::default().with_max_homography_ratio(share);
+    for ratio in [-0.1, f64::NAN] {
+        let options = TwoViewOptions::default().with_max_homography_ratio(ratio);
         assert!(
             matches!(options.check(), Err(Error::OutOfRange { .. })),
-            "{share}"
+            "{ratio}"
         );
     }
 }

@@ -30,7 +30,7 @@ fn matches(k: &Intrinsics) -> (Vec<Point2<f64>>, Vec<Point2<f64>>) {
 }
 
 #[test]
-fn shares_rise_and_the_work_can_be_canceled_at_any_report() {
+fn progress_rises_and_the_work_can_be_canceled_at_any_report() {
     let k = Intrinsics::centered(600.0, 640, 480).unwrap();
     let (p1, p2) = matches(&k);
     let options = TwoViewOptions::default();
@@ -46,17 +46,21 @@ fn shares_rise_and_the_work_can_be_canceled_at_any_report() {
     };
     for calibrated in [false, true] {
         let whole = run(calibrated, &mut ()).unwrap();
-        let mut shares = Vec::new();
+        let mut fractions = Vec::new();
         let mut watch = |status: Status| {
             assert_eq!(status.stage, Stage::RobustEstimation);
-            shares.push(status.share);
+            fractions.push(status.fraction);
             ControlFlow::Continue(())
         };
         let watched = run(calibrated, &mut watch).unwrap();
         assert_eq!(watched, whole, "watching changes nothing");
-        assert!(shares.len() > 10 && shares.is_sorted() && shares[0] < 0.1);
-        assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));
-        for end in 1..=shares.len() {
+        assert!(fractions.len() > 10 && fractions.is_sorted() && fractions[0] < 0.1);
+        assert!(
+            fractions
+                .iter()
+                .all(|fraction| (0.0..=1.0).contains(fraction))
+        );
+        for end in 1..=fractions.len() {
             let mut count = 0;
             let canceled = run(calibrated, &mut |_: Status| {
                 count += 1;

@@ -46,7 +46,7 @@ fn scene(
     let [fu, fv] = [(); 2].map(|()| within(100.0, 1000.0));
     let intrinsics = Intrinsics::new(fu, fv, 100.0, within(-100.0, 100.0)).unwrap();
     let [roll, pitch, yaw] = [(); 3].map(|()| within(-30.0, 30.0).to_radians());
-    let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+    let rotation = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
     let mut shift = Vector3::new(within(-0.5, 0.5), within(-0.5, 0.5), within(1.0, 2.0));
     let num_true = (inlier_ratio * num_points as f64) as usize;
     let mut points: Vec<Point3<f64>> = (0..num_true)
@@ -59,22 +59,22 @@ fn scene(
         })
         .collect();
     // All of them lie in front of the second camera.
-    let depths = points.iter().map(|point| (turn * point).z + shift.z);
+    let depths = points.iter().map(|point| (rotation * point).z + shift.z);
     let nearest = depths.fold(f64::INFINITY, f64::min);
     if nearest <= 0.0 {
         shift.z += 1.0 - nearest;
     }
     let cameras = [
         RigidTransform::identity(),
-        RigidTransform::from_parts(shift.into(), turn),
+        RigidTransform::from_parts(shift.into(), rotation),
     ]
     .map(|cam_from_world| PosedCamera {
         camera: Camera::pinhole(intrinsics, 640, 480),
         cam_from_world,
     });
     let mut pixels = cameras.map(|camera| -> Vec<Point2<f64>> {
-        let seen = points.iter().map(|point| camera.project(point).unwrap());
-        seen.collect()
+        let projected = points.iter().map(|point| camera.project(point).unwrap());
+        projected.collect()
     });
     let mut far = || random.uniform(0.0, 1000.0);
     for _ in num_true..num_points {
@@ -96,10 +96,10 @@ fn scene(
 }
 
 /// The shares from `first` to 0.9 in steps of a tenth.
-fn shares(first: f64) -> impl Iterator<Item = f64> {
+fn ratios(first: f64) -> impl Iterator<Item = f64> {
     (0..9)
         .map(move |n| first + 0.1 * f64::from(n))
-        .filter(|share| *share < 0.91)
+        .filter(|ratio| *ratio < 0.91)
 }
 
 /// Number of samples that theory asks for, and some more.
@@ -155,8 +155,8 @@ fn fundamental_matrices() {
     let mut random = Random::new(1);
     let mut missed = Vec::new();
     for seed in 0..SEEDS {
-        for share in shares(0.25) {
-            let scene = scene(&mut random, Shape::Cube, 2000, share, 0.1);
+        for ratio in ratios(0.25) {
+            let scene = scene(&mut random, Shape::Cube, 2000, ratio, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
                 let report = estimate_fundamental(p1, p2, options, &mut ())?;
@@ -164,8 +164,8 @@ fn fundamental_matrices() {
                 let errors = pairs.map(|(a, b)| sampson_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
             };
-            let name = format!("F {share:.2}");
-            let most = budget(share, 7, 1.25);
+            let name = format!("F {ratio:.2}");
+            let most = budget(ratio, 7, 1.25);
             check(&name, &scene, 1.0, most, seed, find, &mut missed);
         }
     }
@@ -177,8 +177,8 @@ fn essential_matrices() {
     let mut random = Random::new(2);
     let mut missed = Vec::new();
     for seed in 0..SEEDS {
-        for share in shares(0.35) {
-            let scene = scene(&mut random, Shape::Cube, 1500, share, 0.01);
+        for ratio in ratios(0.35) {
+            let scene = scene(&mut random, Shape::Cube, 1500, ratio, 0.01);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
                 let k = &scene.cameras[0].camera.intrinsics;
@@ -195,7 +195,7 @@ fn essential_matrices() {
             };
             // The default of OpenCV's findEssentialMat; theory asks for 875 at 35 %.
             check(
-                &format!("E {share:.2}"),
+                &format!("E {ratio:.2}"),
                 &scene,
                 1.0,
                 1000,
@@ -213,8 +213,8 @@ fn homographies() {
     let mut random = Random::new(3);
     let mut missed = Vec::new();
     for seed in 0..SEEDS {
-        for share in shares(0.1) {
-            let scene = scene(&mut random, Shape::Plane, 1500, share, 0.1);
+        for ratio in ratios(0.1) {
+            let scene = scene(&mut random, Shape::Plane, 1500, ratio, 0.1);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let [p1, p2] = &scene.pixels;
                 let report = estimate_homography(p1, p2, options, &mut ())?;
@@ -222,8 +222,8 @@ fn homographies() {
                 let errors = pairs.map(|(a, b)| transfer_error_px(&report.model, a, b));
                 Ok((report.inliers, errors.collect()))
             };
-            let name = format!("H {share:.1}");
-            let most = budget(share, 4, 1.3);
+            let name = format!("H {ratio:.1}");
+            let most = budget(ratio, 4, 1.3);
             check(&name, &scene, 2.0, most, seed, find, &mut missed);
         }
     }
@@ -235,8 +235,8 @@ fn absolute_poses() {
     let mut random = Random::new(4);
     let mut missed = Vec::new();
     for seed in 0..SEEDS {
-        for share in shares(0.1) {
-            let scene = scene(&mut random, Shape::Cube, 3000, share, 0.15);
+        for ratio in ratios(0.1) {
+            let scene = scene(&mut random, Shape::Cube, 3000, ratio, 0.15);
             let find = |scene: &Scene, options: &RansacOptions| -> Found {
                 let pixels = &scene.pixels[1];
                 let intrinsics = scene.cameras[1].camera.intrinsics;
@@ -252,14 +252,14 @@ fn absolute_poses() {
                     cam_from_world: report.model,
                 };
                 let error = |(point, pixel): (&Point3<f64>, &Point2<f64>)| {
-                    let seen = camera.project(point);
-                    seen.map_or(f64::INFINITY, |seen| (seen - pixel).norm())
+                    let projected = camera.project(point);
+                    projected.map_or(f64::INFINITY, |projected| (projected - pixel).norm())
                 };
                 let errors = scene.points.iter().zip(pixels).map(error);
                 Ok((report.inliers, errors.collect()))
             };
-            let name = format!("P3P {share:.1}");
-            let most = budget(share, 3, 1.3);
+            let name = format!("P3P {ratio:.1}");
+            let most = budget(ratio, 3, 1.3);
             check(&name, &scene, 2.0, most, seed, find, &mut missed);
         }
     }

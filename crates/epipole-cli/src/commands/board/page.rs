@@ -124,8 +124,8 @@ impl Page {
         self.rectangles.push([MARGIN_MM, y, 10.0 * steps, THIN_MM]);
         for step in 0..=steps as u32 {
             let height = if step % 5 == 0 { 2.5 } else { 1.5 };
-            let share = f64::from(step) / steps.max(1.0);
-            let x = MARGIN_MM + 10.0 * f64::from(step) - THIN_MM * share;
+            let fraction = f64::from(step) / steps.max(1.0);
+            let x = MARGIN_MM + 10.0 * f64::from(step) - THIN_MM * fraction;
             self.rectangles.push([x, y + THIN_MM, THIN_MM, height]);
         }
         for (step, unit) in [(0.0, ""), (steps, " mm")] {
@@ -148,8 +148,8 @@ fn fitting(
     footer_mm: f64,
     square_mm: f64,
 ) -> Result<([f64; 2], [f64; 2]), Failure> {
-    let as_given = [paper.width_mm, paper.height_mm];
-    let turned = [paper.height_mm, paper.width_mm];
+    let portrait = [paper.width_mm, paper.height_mm];
+    let rotated = [paper.height_mm, paper.width_mm];
     let room = |paper: [f64; 2]| {
         [
             paper[0] - 2.0 * MARGIN_MM,
@@ -157,18 +157,18 @@ fn fitting(
         ]
     };
     // Largest possible scale of the board.
-    let share = |paper: [f64; 2]| {
+    let scale = |paper: [f64; 2]| {
         let [width, height] = room(paper);
         (width / board_mm[0]).min(height / board_mm[1])
     };
-    let best = match paper.turns && share(turned) > share(as_given) {
-        true => turned,
-        false => as_given,
+    let best = match paper.may_rotate && scale(rotated) > scale(portrait) {
+        true => rotated,
+        false => portrait,
     };
-    let share = share(best);
-    if share < 1.0 {
+    let scale = scale(best);
+    if scale < 1.0 {
         let [width, height] = room(best);
-        let advice = match (10.0 * square_mm * share).floor() / 10.0 {
+        let advice = match (10.0 * square_mm * scale).floor() / 10.0 {
             largest if largest > 0.0 => {
                 format!("take --square-mm {largest} at most, or larger paper")
             }

@@ -6,7 +6,7 @@ pub(super) struct Paper {
     pub(super) width_mm: f64,
     pub(super) height_mm: f64,
     /// Whether it may be rotated by 90°.
-    pub(super) turns: bool,
+    pub(super) may_rotate: bool,
 }
 
 /// Largest side, millimeters: a PDF page has at most 200 inches.
@@ -20,7 +20,7 @@ pub(super) fn paper(text: &str) -> Result<Paper, String> {
         "letter" => Some((215.9, 279.4)),
         _ => None,
     };
-    let turns = named.is_some();
+    let may_rotate = named.is_some();
     let text_sides = || {
         let text = text.strip_suffix("mm").unwrap_or(text);
         let (width, height) = text.split_once(['x', 'X', '×'])?;
@@ -35,7 +35,7 @@ pub(super) fn paper(text: &str) -> Result<Paper, String> {
             Ok(Paper {
                 width_mm,
                 height_mm,
-                turns,
+                may_rotate,
             })
         }
         _ => Err(format!(

@@ -29,9 +29,9 @@ pub(super) fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, Failure> {
         )));
     }
     let mut black = vec![0.0_f32; width as usize * height as usize];
-    let mut add = |x: u32, y: u32, share: f64| {
+    let mut add = |x: u32, y: u32, coverage: f64| {
         if f64::from(x) < width && f64::from(y) < height {
-            black[y as usize * width as usize + x as usize] += share as f32;
+            black[y as usize * width as usize + x as usize] += coverage as f32;
         }
     };
     for [x, y, across, down] in &page.rectangles {
@@ -52,8 +52,8 @@ pub(super) fn png(page: &Page, dpi: f64) -> Result<Vec<u8>, Failure> {
         }
     }
     let mut gray = GrayImage::from_fn(width as u32, height as u32, |u, v| {
-        let share = black[v as usize * width as usize + u as usize].min(1.0);
-        Luma([(255.0 * (1.0 - share)).round() as u8])
+        let coverage = black[v as usize * width as usize + u as usize].min(1.0);
+        Luma([(255.0 * (1.0 - coverage)).round() as u8])
     });
     for text in &page.texts {
         draw_text(&mut gray, text, scale)?;

@@ -8,7 +8,7 @@ use epipole::calibration::{BoardDrawing, MarkerDictionary};
 use nalgebra::Point2;
 
 /// Default gap between markers, relative to their side.
-const GAP_SHARE: f64 = 0.25;
+const GAP_RATIO: f64 = 0.25;
 
 /// Markers in place of a board.
 #[derive(Debug, Args)]
@@ -64,7 +64,7 @@ impl SheetArguments {
             )));
         }
         let num_cells = (dictionary.num_bits() + 2) as f64;
-        let gap = self.gap_mm.map_or(GAP_SHARE, |gap_mm| gap_mm / side_mm);
+        let gap = self.gap_mm.map_or(GAP_RATIO, |gap_mm| gap_mm / side_mm);
         if gap * num_cells < 1.0 {
             return Err(Failure::usage(format!(
                 "--gap-mm must be {} at least: a marker is found by the white around it, as wide as one of its bits",

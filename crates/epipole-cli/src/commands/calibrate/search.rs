@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Boards found in the photos of one camera, in their order.
-pub(super) struct Photographs {
+pub(super) struct SearchedPhotos {
     pub(super) names: Vec<String>,
     pub(super) views: Vec<Option<BoardView>>,
     /// Reason for a missing view, with the name of the file.
@@ -27,7 +27,7 @@ pub(super) fn search(
     reading: ReadArguments,
     board: &Board,
     context: &Context,
-) -> Result<Photographs, Failure> {
+) -> Result<SearchedPhotos, Failure> {
     let progress = Progress::new(context, "looking for boards");
     let num_done = AtomicUsize::new(0);
     let searched: Result<Vec<_>, Failure> = photos
@@ -45,31 +45,31 @@ pub(super) fn search(
         .collect();
     drop(progress);
     let names: Vec<String> = photos.iter().map(|photo| photo.name.clone()).collect();
-    let mut photographs = Photographs {
+    let mut found_in = SearchedPhotos {
         names,
         views: Vec::new(),
         problems: Vec::new(),
         size: (0, 0),
     };
     for (index, (size, found)) in searched?.into_iter().enumerate() {
-        let name = &photographs.names[index];
+        let name = &found_in.names[index];
         if index == 0 {
-            photographs.size = size;
-        } else if size != photographs.size {
-            let (width, height) = photographs.size;
+            found_in.size = size;
+        } else if size != found_in.size {
+            let (width, height) = found_in.size;
             return Err(Failure::new(
                 "size-mismatch",
                 format!(
-                    "all photographs of a camera must have one size, but {name} is {} × {} and {} {width} × {height}",
-                    size.0, size.1, photographs.names[0]
+                    "all images of a camera must have the same size, but {name} is {} × {} and {} {width} × {height}",
+                    size.0, size.1, found_in.names[0]
                 ),
             ));
         }
         let problem = found.problem(board);
-        photographs
+        found_in
             .problems
             .push(problem.map(|problem| format!("{name}: {problem}")));
-        photographs.views.push(found.view());
+        found_in.views.push(found.view());
     }
-    Ok(photographs)
+    Ok(found_in)
 }

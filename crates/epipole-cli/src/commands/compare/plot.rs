@@ -41,7 +41,7 @@ impl Plot<'_> {
         let axis = |n: usize| format!("{} (m)", ["x", "y", "z"][n]);
         let [first, last] = [errors[0][0], errors[errors.len() - 1][0]];
         let rmse = [[first, self.rmse_m], [last, self.rmse_m]];
-        let [truth_name, estimate_name] = self.names.each_ref().map(|name| escaped(name));
+        let [truth_name, estimate_name] = self.names.each_ref().map(|name| escape(name));
         [
             format!(
                 "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
@@ -88,7 +88,7 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
-fn escaped(text: &str) -> String {
+fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;")
 }
 
@@ -127,10 +127,10 @@ impl Chart {
 
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [left, top, width, height] = self.place;
-        let share = |[low, high]: [f64; 2], value: f64| (value - low) / (high - low);
+        let fraction = |[low, high]: [f64; 2], value: f64| (value - low) / (high - low);
         [
-            left + width * share(self.x, x),
-            top + height * (1.0 - share(self.y, y)),
+            left + width * fraction(self.x, x),
+            top + height * (1.0 - fraction(self.y, y)),
         ]
     }
 
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_path_is_seen_along_its_least_extent() {
+    fn a_path_is_drawn_along_its_least_extent() {
         let at = |x: f64, y: f64, z: f64| Point3::new(x, y, z);
         assert_eq!(ground(&[at(0.0, 0.0, 0.0), at(5.0, 1.0, 9.0)]), [0, 2]);
         assert_eq!(ground(&[at(1.0, 1.0, 1.0)]), [0, 1]);

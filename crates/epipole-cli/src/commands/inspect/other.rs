@@ -90,11 +90,11 @@ pub(super) fn table(bytes: &[u8]) -> Option<Report> {
 fn of_photo(bytes: &[u8]) -> Result<Found> {
     let (width, height) = sensor_size(bytes)?;
     let decoded = decode_gray(bytes, &DecodeOptions::default().with_max_pixels(u64::MAX))?;
-    let (turned_width, turned_height) = decoded.image.dimensions();
+    let (upright_width, upright_height) = decoded.image.dimensions();
     let mut notes = Vec::new();
-    if (width, height) != (turned_width, turned_height) {
+    if (width, height) != (upright_width, upright_height) {
         notes.push(format!(
-            "EXIF turns it: it is shown as {turned_width} × {turned_height}"
+            "EXIF turns it: it is shown as {upright_width} × {upright_height}"
         ));
     }
     if let Some([low, high]) = decoded.range {

@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use std::path::Path;
 
 /// Maximum distance of a feature from an observation of a point, pixels.
-const NEAR_PX: f64 = 1.5;
+const SAME_PX: f64 = 1.5;
 
 /// Fraction of observations with a feature, below which the images are not those of the model.
 const FEW: f64 = 0.1;
@@ -60,7 +60,7 @@ impl Known {
             num_observations: 0,
             num_found_again: 0,
         };
-        let observed = observed(model);
+        let observed = observations_by_image(model);
         let mut missing = Vec::new();
         let progress = Progress::new(context, "features of the model");
         for (n, (image, observed)) in model.images.iter().zip(&observed).enumerate() {
@@ -74,7 +74,7 @@ impl Known {
             }
         }
         drop(progress);
-        folder.tell_of_missing(&missing, model.images.len(), context)?;
+        folder.warn_of_missing(&missing, model.images.len(), context)?;
         if (known.num_found_again as f64) < FEW * known.num_observations as f64 {
             context.warn(&format!(
                 "only {} of {} observations of the model have a feature near them: are the images in {} those of the \
@@ -154,7 +154,7 @@ fn points_of(model: &Model) -> Vec<ScenePoint> {
 }
 
 /// Returns pixel and point of each observation, by image.
-fn observed(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
+fn observations_by_image(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
     let mut observed = vec![Vec::new(); model.images.len()];
     for (index, point) in model.points.iter().enumerate() {
         for &(image, keypoint) in &point.track {
@@ -164,7 +164,7 @@ fn observed(model: &Model) -> Vec<Vec<(Point2<f64>, usize)>> {
     observed
 }
 
-/// Observations in squares of side [`NEAR_PX`].
+/// Observations in squares of side [`SAME_PX`].
 struct Grid<'a> {
     observed: &'a [(Point2<f64>, usize)],
     cells: HashMap<(i64, i64), Vec<usize>>,
@@ -180,17 +180,18 @@ impl<'a> Grid<'a> {
     }
 
     fn cell(pixel: &Point2<f64>) -> (i64, i64) {
-        let index = |x: f64| (x / NEAR_PX).floor() as i64;
+        let index = |x: f64| (x / SAME_PX).floor() as i64;
         (index(pixel.x), index(pixel.y))
     }
 
-    /// Returns the index of the nearest observation within [`NEAR_PX`].
+    /// Returns the index of the nearest observation within [`SAME_PX`].
     fn nearest(&self, pixel: &Point2<f64>) -> Option<usize> {
         let (u, v) = Self::cell(pixel);
         let around = (-1..=1).flat_map(|dv| (-1..=1).map(move |du| (u + du, v + dv)));
-        let near = around.filter_map(|cell| self.cells.get(&cell)).flatten();
-        near.map(|&index| ((self.observed[index].0 - pixel).norm(), index))
-            .filter(|(distance, _)| *distance <= NEAR_PX)
+        let neighbors = around.filter_map(|cell| self.cells.get(&cell)).flatten();
+        neighbors
+            .map(|&index| ((self.observed[index].0 - pixel).norm(), index))
+            .filter(|(distance, _)| *distance <= SAME_PX)
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .map(|(_, index)| index)
     }

@@ -5,7 +5,7 @@ use super::known::Known;
 use crate::camera::sentence;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::known_camera::tell_of_unseen;
+use crate::known_camera::check_visible_part;
 use crate::lens;
 use crate::listing::Listed;
 use crate::photo::Photo;
@@ -89,10 +89,10 @@ impl NewPhoto {
         let own = match &arguments.camera_file {
             Some(file) => {
                 let camera = lens::read(file, Some(path))?;
-                tell_of_unseen(&camera, context)?;
+                check_visible_part(&camera, context)?;
                 Some(camera)
             }
-            None if arguments.camera.is_given() => None,
+            None if arguments.camera.is_set() => None,
             None => match lens::size_of(path) {
                 Some(size) => of_model(cameras, size, &listed.name, context)?,
                 None => None,

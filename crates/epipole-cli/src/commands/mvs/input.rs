@@ -74,7 +74,7 @@ impl Input {
             input.photos.push(photo);
         }
         drop(progress);
-        folder.tell_of_missing(&missing, model.images.len(), context)?;
+        folder.warn_of_missing(&missing, model.images.len(), context)?;
         Ok(input)
     }
 }

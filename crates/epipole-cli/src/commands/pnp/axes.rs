@@ -31,7 +31,7 @@ pub(super) fn check(
     let num_mirrored = |axis: Axes| {
         let mirrored: Vec<_> = pixels.iter().map(axis).collect();
         let report = estimate_absolute_pose(points, &mirrored, camera, options, &mut ()).ok()?;
-        (!report.could_be_chance()).then_some(report.num_inliers)
+        (!report.could_be_random()).then_some(report.num_inliers)
     };
     let Some(most) = axes.into_iter().filter_map(num_mirrored).max() else {
         return;

@@ -119,14 +119,20 @@ pub(super) fn with_camera(
             let message = format!("no pose fits more than {count} of {all} points");
             return Err(Failure::new("no-consensus", message));
         }
-        if report.could_be_chance() {
+        if report.could_be_random() {
             context.warn(ADVICE);
         }
         (report.inliers, report.max_error_px)
     };
-    let kept = |n: &usize| inliers[*n];
-    let points: Vec<_> = (0..points.len()).filter(kept).map(|n| points[n]).collect();
-    let pixels: Vec<_> = (0..pixels.len()).filter(kept).map(|n| pixels[n]).collect();
+    let is_inlier = |n: &usize| inliers[*n];
+    let points: Vec<_> = (0..points.len())
+        .filter(is_inlier)
+        .map(|n| points[n])
+        .collect();
+    let pixels: Vec<_> = (0..pixels.len())
+        .filter(is_inlier)
+        .map(|n| pixels[n])
+        .collect();
     let judged = |cam_from_world: RigidTransform| {
         let errors = errors_px(camera, &cam_from_world, &points, &pixels);
         let pose = Pose {
@@ -233,7 +239,7 @@ pub(super) fn with_focal(
         estimate_absolute_pose_and_focal(points, pixels, center, options, monitor)
     })?;
     let pose = report.model;
-    if report.could_be_chance() {
+    if report.could_be_random() {
         context.warn(ADVICE);
     }
     if !pose.constrains_focal() {

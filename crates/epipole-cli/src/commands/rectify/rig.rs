@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::known_camera::tell_of_unseen;
+use crate::known_camera::check_visible_part;
 use crate::lens;
 use crate::photo::{Photo, check_same_size};
 use crate::reading::ReadArguments;
@@ -22,8 +22,8 @@ pub(super) fn read(
     let (cameras, right_from_left) = lens::read_rig(file, Some(paths[0]))?;
     let [left, right] = &cameras;
     let photos = [
-        photograph(paths[0], left, "left", reading, context)?,
-        photograph(paths[1], right, "right", reading, context)?,
+        photo_of_side(paths[0], left, "left", reading, context)?,
+        photo_of_side(paths[1], right, "right", reading, context)?,
     ];
     check_same_size(&photos)?;
     Ok((photos, cameras, right_from_left))
@@ -31,20 +31,20 @@ pub(super) fn read(
 
 /// Reads a photo of one side of the rig. Refuses one that was rotated upright, because the pose of
 /// its camera would differ.
-fn photograph(
+fn photo_of_side(
     path: &Path,
     camera: &Camera,
     side: &str,
     reading: ReadArguments,
     context: &Context,
 ) -> Result<Photo, Failure> {
-    tell_of_unseen(camera, context)?;
+    check_visible_part(camera, context)?;
     let photo = Photo::by_camera(path, reading, camera, context)?;
     let (width, height) = photo.sensor_size;
     let why = match photo.lens {
-        Some(kept) if kept.quarters == 0 => return Ok(photo),
-        Some(_) => "this photograph is turned upright by its file".to_owned(),
-        None => format!("this photograph is {width} × {height}"),
+        Some(lens) if lens.quarters == 0 => return Ok(photo),
+        Some(_) => "this image is rotated upright by its file".to_owned(),
+        None => format!("this image is {width} × {height}"),
     };
     let message = format!(
         "the {side} camera of --rig was calibrated for {} × {} as the sensor gives them, but {why}",

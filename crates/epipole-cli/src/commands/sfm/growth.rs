@@ -3,7 +3,7 @@
 use super::refined::RefinedArguments;
 use crate::context::Context;
 use crate::matrices::positive;
-use crate::photo::KeptLens;
+use crate::photo::RetainedLens;
 use crate::robust::RobustArguments;
 use clap::{Args, ValueEnum};
 use epipole::camera::Camera;
@@ -75,23 +75,23 @@ pub(super) struct GrowthArguments {
 impl GrowthArguments {
     /// Gives equal numbers to photos that share a lens.
     ///
-    /// * `cameras`, `kept`: per photo
+    /// * `cameras`, `retained`: per photo
     pub(super) fn number_lenses(
         &self,
         photos: &mut [Photo],
         cameras: &[Camera],
-        kept: &[Option<KeptLens>],
+        retained: &[Option<RetainedLens>],
     ) {
         let mut kinds = Vec::new();
-        for (index, (photo, (camera, kept))) in
-            (photos.iter_mut().zip(cameras.iter().zip(kept))).enumerate()
+        for (index, (photo, (camera, retained))) in
+            (photos.iter_mut().zip(cameras.iter().zip(retained))).enumerate()
         {
             let alike = match self.lenses {
                 Lenses::One => None,
                 Lenses::Each => Some((index, None)),
                 Lenses::Alike => Some((0, Some(*camera))),
             };
-            let kind = (alike, *kept);
+            let kind = (alike, *retained);
             let place = kinds.iter().position(|known| *known == kind);
             photo.lens = place.unwrap_or_else(|| {
                 kinds.push(kind);
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_said_is_the_default_of_the_core() {
+    fn omitted_options_have_the_defaults_of_the_core() {
         assert_eq!(options(&[], false), SfmOptions::default());
         let words = [
             "--min-inliers",
@@ -152,22 +152,25 @@ mod tests {
             "--confidence",
             "0.9",
         ];
-        let said = options(&words, false);
-        assert_eq!((said.min_num_inliers, said.ransac.max_error_px), (30, 0.5));
-        assert_eq!(said.ransac.confidence, 0.9);
+        let parsed = options(&words, false);
+        assert_eq!(
+            (parsed.min_num_inliers, parsed.ransac.max_error_px),
+            (30, 0.5)
+        );
+        assert_eq!(parsed.ransac.confidence, 0.9);
     }
 
     #[test]
-    fn photographs_that_cannot_share_a_lens_have_their_own() {
-        let fisheye = KeptLens {
+    fn photos_that_cannot_share_a_lens_have_their_own() {
+        let fisheye = RetainedLens {
             lens: Lens::Fisheye(Fisheye::default()),
             quarters: 0,
         };
-        let turned = KeptLens {
+        let rotated = RetainedLens {
             quarters: 1,
             ..fisheye
         };
-        let kept = [None, Some(fisheye), Some(fisheye), Some(turned), None];
+        let retained = [None, Some(fisheye), Some(fisheye), Some(rotated), None];
         let camera =
             |focal_px| Camera::pinhole(Intrinsics::centered(focal_px, 640, 480).unwrap(), 640, 480);
         let cameras = [500.0, 500.0, 600.0, 600.0, 500.0].map(camera);
@@ -178,14 +181,14 @@ mod tests {
         ] {
             let all = All::try_parse_from(["epipole", "--lenses", words]).unwrap();
             let mut photos = vec![Photo::default(); 5];
-            (all.growth).number_lenses(&mut photos, &cameras, &kept);
-            let given: Vec<usize> = photos.iter().map(|photo| photo.lens).collect();
-            assert_eq!(given, numbers, "{words}");
+            (all.growth).number_lenses(&mut photos, &cameras, &retained);
+            let lens_numbers: Vec<usize> = photos.iter().map(|photo| photo.lens).collect();
+            assert_eq!(lens_numbers, numbers, "{words}");
         }
     }
 
     #[test]
-    fn guessed_focal_lengths_are_refined_unless_they_are_to_be_kept() {
+    fn guessed_focal_lengths_are_refined_unless_fixed() {
         assert!(options(&[], true).refine_focal);
         assert!(!options(&["--keep-focal"], true).refine_focal);
         assert!(options(&["--refine-focal"], false).refine_focal);

@@ -3,9 +3,9 @@
 use crate::camera::{CameraArguments, Guess, of_focal};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::known_camera::{tell_of_others, tell_of_unseen};
+use crate::known_camera::{check_visible_part, warn_of_others};
 use crate::listing::{Listed, ListingArguments};
-use crate::photo::{KeptLens, Photo};
+use crate::photo::{Photo, RetainedLens};
 use crate::reading::SizeArguments;
 use crate::{interrupt, lens};
 use clap::Args;
@@ -63,7 +63,7 @@ pub(super) struct Input {
     pub(super) photos: Vec<SfmPhoto>,
     pub(super) cameras: Vec<Camera>,
     /// Lenses of the photos that keep their distortion.
-    pub(super) lenses: Vec<Option<KeptLens>>,
+    pub(super) lenses: Vec<Option<RetainedLens>>,
     /// Positions from the files of the photos.
     pub(super) places: Vec<Option<Geodetic>>,
     /// Guessed focal lengths.
@@ -87,7 +87,7 @@ impl InputArguments {
         let listed = self.listing.photos(&self.photos, context)?;
         if !self.focals_px.is_empty() && self.focals_px.len() != listed.len() {
             return Err(Failure::usage(format!(
-                "--focals-px needs one for each photograph, but there are {} for {}",
+                "--focals-px needs one for each image, but there are {} for {}",
                 self.focals_px.len(),
                 listed.len()
             )));
@@ -100,7 +100,7 @@ impl InputArguments {
             .map(|camera| Undistortion::new(camera, Keep::Valid, &mut interrupt::watch));
         let flat = flat.transpose()?;
         if let (Some(camera), None) = (&camera, &flat) {
-            tell_of_unseen(camera, context)?;
+            check_visible_part(camera, context)?;
         }
         let mut input = Input {
             photos: Vec::new(),
@@ -143,14 +143,14 @@ impl InputArguments {
             });
         }
         if let Some(camera) = &camera {
-            tell_of_others(camera, &others, num_photos, context);
+            warn_of_others(camera, &others, num_photos, context);
         }
         if self.camera.k.is_some()
             && let Some(place) = sizes.iter().position(|size| *size != sizes[0])
         {
             let ((w, h), (w0, h0)) = (sizes[place], sizes[0]);
             context.warn(&format!(
-                "--k is taken for photographs of different sizes: {} is {w} × {h}, the first one {w0} × {h0}",
+                "--k is used for images of different sizes: {} is {w} × {h}, the first one {w0} × {h0}",
                 input.photos[place].name
             ));
         }

@@ -56,7 +56,7 @@ pub(super) fn run(
     drop(progress);
     if found.points.is_empty() {
         let message =
-            "no match fits the poses: are they those of these photographs, and cam_from_world?";
+            "no match fits the poses: are they those of these images, and cam_from_world?";
         return Err(Failure::new("no-consensus", message).about(path));
     }
     warn_of_few(&found, &input, options.min_num_inliers, context);
@@ -64,7 +64,7 @@ pub(super) fn run(
     if mean_px > MAX_MEAN_ERROR * options.max_reprojection_error_px {
         context.warn(&format!(
             "the points are {mean_px:.2} px off on average, nearly as points of wrong matches are: the poses may be \
-             imprecise, those of other photographs, or world from camera"
+             imprecise, those of other images, or world from camera"
         ));
     }
     let written = write_model(&mut output, "", &found, &input.images)?;
@@ -127,14 +127,14 @@ fn read(
     }
     let num_known = known.photos.len();
     if num_known < 2 {
-        let num_given = num_known + known.left_out.len();
+        let num_poses = num_known + known.left_out.len();
         let message = match model.images.first() {
             None => "it has no images with poses, only points".to_owned(),
             Some(_) if known.left_out.is_empty() => {
-                format!("points need two photographs at least, and {num_given} is given")
+                format!("points need at least two images, but the input has {num_poses}")
             }
             Some(first) => format!(
-                "it has poses of {num_known} of the {num_given} photographs, and two are needed: its images have other \
+                "it has poses of {num_known} of the {num_poses} images, and two are needed: its images have other \
                  names, such as {}",
                 first.name
             ),
@@ -143,7 +143,7 @@ fn read(
     }
     if num_known < model.images.len() {
         context.warn(&format!(
-            "{} of {} images of the model are not among the photographs",
+            "{} of {} images of the model are not among the input images",
             model.images.len() - num_known,
             model.images.len()
         ));
@@ -171,8 +171,8 @@ fn warn_of_few(found: &Reconstruction, input: &SfmInput, few: usize, context: &C
         .collect();
     if let Some((first, count)) = poor.first() {
         context.warn(&format!(
-            "{} of {} photographs see fewer than {few} points, such as {} ({count}): they overlap too little, or their \
-             poses are those of other photographs",
+            "{} of {} images see fewer than {few} points, such as {} ({count}): they overlap too little, or their \
+             poses are those of other images",
             poor.len(),
             input.images.len(),
             first.name

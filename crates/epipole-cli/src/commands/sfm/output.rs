@@ -45,20 +45,20 @@ impl<'a> Pictures<'a> {
         let mut taken = BTreeSet::new();
         if let Some(twice) = names.iter().find(|name| !taken.insert(*name)) {
             return Err(Failure::usage(format!(
-                "two photographs would be written to {}",
+                "two images would be written to {}",
                 folder.join(twice).display()
             )));
         }
         let whole = |path: &Path| path.canonicalize().ok();
-        let given: BTreeSet<PathBuf> = used
+        let inputs: BTreeSet<PathBuf> = used
             .iter()
             .filter_map(|used| whole(&used.listed.path))
             .collect();
         let over = (names.iter().map(|name| folder.join(name)))
-            .find(|target| whole(target).is_some_and(|target| given.contains(&target)));
+            .find(|target| whole(target).is_some_and(|target| inputs.contains(&target)));
         match over {
             Some(target) => Err(Failure::usage(format!(
-                "{} is one of the photographs given, and --images would write over it: choose another -o",
+                "{} is one of the input images, and --images would overwrite it: choose another -o",
                 target.display()
             ))),
             None => Ok(Self { used, names }),

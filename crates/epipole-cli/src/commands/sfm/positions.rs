@@ -67,7 +67,7 @@ impl PositionArguments {
             return Ok(Positions::default());
         };
         let path = Path::new(file);
-        let told: Vec<Option<Line>> = if self.is_exif() {
+        let positions: Vec<Option<Line>> = if self.is_exif() {
             let line = |place: &Geodetic| Line {
                 numbers: [place.latitude_deg, place.longitude_deg, place.height_m],
                 sigma_m: self.position_sigma_m,
@@ -80,7 +80,7 @@ impl PositionArguments {
             let lines = lines(&files::read_text(path)?, path, self.position_sigma_m)?;
             of_photos(&lines, photos)
         };
-        let num_known = told.iter().flatten().count();
+        let num_known = positions.iter().flatten().count();
         if num_known == 0 {
             return Err(match self.is_exif() {
                 true => Failure::new("malformed", "no image has a GPS position"),
@@ -89,7 +89,7 @@ impl PositionArguments {
             });
         }
         let mut origin = None;
-        for (photo, line) in photos.iter_mut().zip(&told) {
+        for (photo, line) in photos.iter_mut().zip(&positions) {
             let Some(line) = line else { continue };
             let [x, y, z] = line.numbers;
             let center_in_world = if self.geodetic || self.is_exif() {

@@ -29,7 +29,7 @@ pub(crate) struct RefinedArguments {
 
 impl RefinedArguments {
     /// Returns whether any refinement is requested.
-    pub(crate) fn is_given(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.refine_focal
             || self.refine_principal_point
             || self.refine_distortion
@@ -37,7 +37,7 @@ impl RefinedArguments {
     }
 
     /// Warns of a requested refinement that has no effect.
-    pub(crate) fn tell_of_nothing_to_refine(&self, cameras: &[Camera], context: &Context) {
+    pub(crate) fn warn_of_nothing_to_refine(&self, cameras: &[Camera], context: &Context) {
         let has_tangential =
             |camera: &Camera| matches!(camera.lens.kind(), LensKind::Brown | LensKind::Rational);
         if self.refine_tangential && !cameras.iter().any(has_tangential) {

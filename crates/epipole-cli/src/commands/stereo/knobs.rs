@@ -129,8 +129,8 @@ pub(super) struct BmArguments {
 impl SgmArguments {
     /// # Errors
     /// Wrong usage, if an option of the other matcher is given.
-    pub(super) fn check_silent(&self) -> Result<(), Failure> {
-        let said = [
+    pub(super) fn check_unused(&self) -> Result<(), Failure> {
+        let flags = [
             ("--cost", self.cost.is_some()),
             ("--gray-cap", self.gray_cap.is_some()),
             ("--paths", self.paths.is_some()),
@@ -138,7 +138,7 @@ impl SgmArguments {
             ("--large-step-penalty", self.large_step_penalty.is_some()),
             ("--edge-gray", self.edge_gray.is_some()),
         ];
-        silent(&said, "sgm")
+        check_unset(&flags, "sgm")
     }
 
     /// Returns the matcher of the core.
@@ -164,14 +164,14 @@ impl SgmArguments {
 impl BmArguments {
     /// # Errors
     /// Wrong usage, if an option of the other matcher is given.
-    pub(super) fn check_silent(&self) -> Result<(), Failure> {
-        let said = [
+    pub(super) fn check_unused(&self) -> Result<(), Failure> {
+        let flags = [
             ("--window-px", self.window_px.is_some()),
             ("--prefilter", self.prefilter.is_some()),
             ("--prefilter-cap", self.prefilter_cap.is_some()),
             ("--min-texture", self.min_texture.is_some()),
         ];
-        silent(&said, "bm")
+        check_unset(&flags, "bm")
     }
 
     /// Returns the matcher of the core.
@@ -195,11 +195,11 @@ impl BmArguments {
     }
 }
 
-fn silent(said: &[(&str, bool)], method: &str) -> Result<(), Failure> {
-    match said.iter().find(|(_, is_said)| *is_said) {
+fn check_unset(flags: &[(&str, bool)], method: &str) -> Result<(), Failure> {
+    match flags.iter().find(|(_, is_set)| *is_set) {
         None => Ok(()),
         Some((flag, _)) => Err(Failure::usage(format!(
-            "{flag} is of --method {method}, which is not the one asked for"
+            "{flag} belongs to --method {method}, which is not selected"
         ))),
     }
 }
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_said_is_the_default_of_the_core() {
+    fn omitted_options_have_the_defaults_of_the_core() {
         let all = parsed(&[]);
         let (sgm, bm) = (StereoSgm::default(), StereoBm::default());
         let of_sgm = (sgm.min_disparity_px, sgm.num_disparities);
@@ -274,10 +274,10 @@ mod tests {
     }
 
     #[test]
-    fn a_knob_of_the_other_matcher_is_told() {
-        assert!(parsed(&[]).sgm.check_silent().is_ok());
-        let told = parsed(&["--paths", "4"]).sgm.check_silent().unwrap_err();
-        assert!(told.message.contains("--paths"), "{}", told.message);
-        assert!(parsed(&["--window-px", "9"]).bm.check_silent().is_err());
+    fn an_option_of_the_other_matcher_is_rejected() {
+        assert!(parsed(&[]).sgm.check_unused().is_ok());
+        let error = parsed(&["--paths", "4"]).sgm.check_unused().unwrap_err();
+        assert!(error.message.contains("--paths"), "{}", error.message);
+        assert!(parsed(&["--window-px", "9"]).bm.check_unused().is_err());
     }
 }

@@ -114,7 +114,7 @@ fn sentence(moves: &[Move], tolerance_px: f64, (low, high): (i32, i32)) -> Optio
     if 10 * num_missed <= num_rows {
         return None;
     }
-    let at = |share: f64| disparities[(share * (num_rows - 1) as f64).round() as usize];
+    let at = |fraction: f64| disparities[(fraction * (num_rows - 1) as f64).round() as usize];
     let (first, last) = (at(0.02).floor(), at(0.98).ceil());
     let found = format!(
         "{num_missed} of {num_rows} matches have disparities that are not looked for: they are {first} to {last} px"
@@ -145,11 +145,13 @@ mod tests {
 
     #[test]
     fn each_cause_has_its_sentence() {
-        let told = |moves: &[Move]| sentence(moves, 1.5, (0, 64)).unwrap();
-        assert!(told(&of(|n| [0.2, 5.0 + n])).starts_with("columns agree, not rows: 0 of 100"));
-        assert!(told(&of(|n| [n + 3.0, 5.0 + n])).starts_with("rows do not agree"));
-        assert!(told(&of(|n| [n + 3.0, 0.0])).ends_with("left and right may be swapped"));
-        let far = told(&of(|n| [-60.0 - n, 0.0]));
+        let warning_of = |moves: &[Move]| sentence(moves, 1.5, (0, 64)).unwrap();
+        assert!(
+            warning_of(&of(|n| [0.2, 5.0 + n])).starts_with("columns agree, not rows: 0 of 100")
+        );
+        assert!(warning_of(&of(|n| [n + 3.0, 5.0 + n])).starts_with("rows do not agree"));
+        assert!(warning_of(&of(|n| [n + 3.0, 0.0])).ends_with("left and right may be swapped"));
+        let far = warning_of(&of(|n| [-60.0 - n, 0.0]));
         assert!(far.contains("they are 62 to 157 px; set --min"), "{far}");
     }
 }

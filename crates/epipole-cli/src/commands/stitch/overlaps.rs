@@ -59,7 +59,7 @@ impl Overlaps {
         let mut part = Part::new(watch, 0.0, MATCHED);
         let (images, pairs) = match_photos(&input.photos, &photo_options, &mut part)?;
         let mut found = Vec::new();
-        let share = |n: usize| MATCHED + (1.0 - MATCHED) * n as f32 / pairs.len() as f32;
+        let fraction = |n: usize| MATCHED + (1.0 - MATCHED) * n as f32 / pairs.len() as f32;
         for (n, pair) in pairs.iter().enumerate() {
             let list = |image: usize, side: fn(&Match) -> usize| -> Vec<Point2<f64>> {
                 let keypoints = &images[image].keypoints;
@@ -72,7 +72,7 @@ impl Overlaps {
                 list(pair.image1, |m| m.index1),
                 list(pair.image2, |m| m.index2),
             );
-            let mut part = Part::new(watch, share(n), share(n + 1));
+            let mut part = Part::new(watch, fraction(n), fraction(n + 1));
             let numbers = [pair.image1, pair.image2];
             match find_overlap(numbers, &a, &b, &options, &mut part) {
                 Err(Error::Canceled) => return Err(Error::Canceled.into()),
@@ -115,7 +115,7 @@ impl Overlaps {
             .filter_map(|overlap| Fit::new(overlap, panorama))
             .collect();
         let mut joined = BTreeSet::new();
-        for fit in fits.iter().filter(|fit| fit.share() >= MOST) {
+        for fit in fits.iter().filter(|fit| fit.inlier_ratio() >= MOST) {
             joined.extend(fit.overlap.images);
         }
         let (mut moved, mut elsewhere) = (Vec::new(), Vec::new());
@@ -123,8 +123,8 @@ impl Overlaps {
         for fit in &fits {
             let overlap = fit.overlap;
             let are_joined = overlap.images.iter().all(|image| joined.contains(image));
-            let is_elsewhere = are_joined && fit.share() < FEW;
-            let parallax = !is_elsewhere && (overlap.has_parallax || fit.share() < MOST);
+            let is_elsewhere = are_joined && fit.inlier_ratio() < FEW;
+            let parallax = !is_elsewhere && (overlap.has_parallax || fit.inlier_ratio() < MOST);
             for (list, is_in) in [(&mut moved, parallax), (&mut elsewhere, is_elsewhere)] {
                 if is_in {
                     list.push(names(overlap).join(" and "));
@@ -179,7 +179,7 @@ impl<'a> Fit<'a> {
     }
 
     /// Returns the fraction of the matches that fit.
-    fn share(&self) -> f64 {
+    fn inlier_ratio(&self) -> f64 {
         self.num_fitting as f64 / self.overlap.pixels[0].len().max(1) as f64
     }
 }
@@ -190,9 +190,9 @@ fn errors_px(first: &Matrix3<f64>, second: &Matrix3<f64>, overlap: &Overlap) -> 
     let transfer = second * inverse;
     let [pixels1, pixels2] = &overlap.pixels;
     let error = |(a, b): (&Point2<f64>, &Point2<f64>)| {
-        let seen = transfer * a.to_homogeneous();
-        match seen.z > 0.0 {
-            true => (seen.xy() / seen.z - b.coords).norm(),
+        let mapped = transfer * a.to_homogeneous();
+        match mapped.z > 0.0 {
+            true => (mapped.xy() / mapped.z - b.coords).norm(),
             false => f64::INFINITY,
         }
     };

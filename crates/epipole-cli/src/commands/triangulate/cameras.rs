@@ -31,7 +31,7 @@ pub(super) fn read(
                 "--images is for a model, not for two camera files",
             ));
         }
-        return Ok(([posed(first)?, posed(second)?], None));
+        return Ok(([read_posed(first)?, read_posed(second)?], None));
     }
     match (Content::read(first)?, images) {
         (Content::Model(read), images) => {
@@ -53,7 +53,7 @@ pub(super) fn read(
 }
 
 /// Returns the camera of a file with one camera, or of a model with one image.
-fn posed(path: &Path) -> Result<PosedCamera, Failure> {
+fn read_posed(path: &Path) -> Result<PosedCamera, Failure> {
     let pose = match Content::read(path)? {
         Content::Model(read) => match &read.model.images[..] {
             [image] => Some(camera_of(&read.model, image)),
@@ -109,7 +109,7 @@ fn camera_of(model: &Model, image: &ModelImage) -> PosedCamera {
 
 fn of_model(model: &Model, images: Option<&str>) -> Result<Pair, Failure> {
     let pair = match (images, &model.images[..]) {
-        (Some(names), _) => named(model, names)?,
+        (Some(names), _) => images_of_names(model, names)?,
         (None, [first, second]) => [first, second],
         (None, all) => {
             let message = format!(
@@ -130,7 +130,7 @@ fn of_model(model: &Model, images: Option<&str>) -> Result<Pair, Failure> {
 }
 
 /// Returns the images of two names, which may contain commas.
-fn named<'a>(model: &'a Model, names: &str) -> Result<[&'a ModelImage; 2], Failure> {
+fn images_of_names<'a>(model: &'a Model, names: &str) -> Result<[&'a ModelImage; 2], Failure> {
     let find = |name: &str| {
         let name = name.trim();
         let mut ending = (model.images.iter())

@@ -95,7 +95,7 @@ impl Summary {
 }
 
 /// Warns of nearly parallel rays, points behind cameras, and cameras that do not fit the matches.
-pub(super) fn tell(
+pub(super) fn warn(
     summary: &Summary,
     cameras: &[PosedCamera; 2],
     pixels: &[Vec<Point2<f64>>; 2],

@@ -24,21 +24,21 @@ pub(super) fn of_homography(pixels: Pixels<'_>, h: &Matrix3<f64>) -> Vec<f64> {
 }
 
 /// Matches seen through lenses. The error is infinite at a pixel without a ray.
-pub(super) struct SeenPixels(Vec<Option<[Observation; 2]>>);
+pub(super) struct ObservedPixels(Vec<Option<[Observation; 2]>>);
 
-impl SeenPixels {
+impl ObservedPixels {
     pub(super) fn new(cameras: [&Camera; 2], pixels: Pixels<'_>) -> Self {
         let pairs = pixels[0].iter().zip(pixels[1]);
-        let seen = pairs.map(|(a, b)| {
+        let observed = pairs.map(|(a, b)| {
             let (one, two) = (cameras[0].observe(a).ok()?, cameras[1].observe(b).ok()?);
             Some([one, two])
         });
-        Self(seen.collect())
+        Self(observed.collect())
     }
 
     fn each(&self, error_px: impl Fn(&Observation, &Observation) -> f64) -> Vec<f64> {
         let error = |[a, b]: &[Observation; 2]| error_px(a, b);
-        let of = |seen: &Option<_>| seen.as_ref().map_or(f64::INFINITY, error);
+        let of = |observed: &Option<_>| observed.as_ref().map_or(f64::INFINITY, error);
         self.0.iter().map(of).collect()
     }
 

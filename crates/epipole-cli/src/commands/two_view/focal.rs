@@ -43,7 +43,7 @@ pub(super) fn intrinsics(
         .with_max_iterations(options.ransac.max_iterations.min(MAX_SAMPLES));
     let is_telling = |report: &RansacReport<PoseWithFocal>| {
         report.num_unique_inliers >= options.min_num_inliers
-            && !report.could_be_chance()
+            && !report.could_be_random()
             && report.model.constrains_focal()
     };
     let found = estimate_relative_pose_and_focal(

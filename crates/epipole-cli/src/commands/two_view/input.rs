@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::features::matched_pixels;
 use crate::match_file;
 use crate::photo::Photo;
-use crate::units::{warn_of_shares, warn_of_units};
+use crate::units::{warn_of_fractions, warn_of_units};
 use nalgebra::Point2;
 
 /// Two photos and their matches.
@@ -32,7 +32,7 @@ impl Input {
         };
         if let Some(path) = &arguments.matches {
             let pixels = match_file::matches(path)?;
-            let known = match arguments.camera.given(&photos)? {
+            let known = match arguments.camera.explicit(&photos)? {
                 Some(known) => known.map(Some),
                 None => photos.each_ref().map(|photo| photo.k),
             };
@@ -41,7 +41,7 @@ impl Input {
                     Some(k) => warn_of_units(pixels, &k, context),
                     None => {
                         let max_error_px = arguments.robust.options(context).max_error_px;
-                        warn_of_shares(&[pixels], max_error_px, context);
+                        warn_of_fractions(&[pixels], max_error_px, context);
                     }
                 }
             }
@@ -68,13 +68,13 @@ fn without_photos(arguments: &Arguments, context: &Context) -> Result<[Photo; 2]
             "--focal-px has the principal point in the middle of a photo: give both photos, or --k fx,fy,cx,cy",
         ));
     }
-    let is_known = arguments.known.is_given() || arguments.camera.is_given();
+    let is_known = arguments.known.is_set() || arguments.camera.is_set();
     if arguments.model == Model::Essential && !is_known {
         return Err(Failure::usage(
             "an essential matrix needs --k fx,fy,cx,cy or --camera where there are no photos",
         ));
     }
-    let camera = arguments.known.alone(context)?;
+    let camera = arguments.known.read_camera(context)?;
     Ok([
         Photo::without_pixels(camera.as_ref()),
         Photo::without_pixels(camera.as_ref()),

@@ -1,14 +1,14 @@
 //! The searches of `epipole two-view` and their results.
 
 use super::arguments::{Arguments, Model};
-use super::errors::{self, Pixels, SeenPixels};
+use super::errors::{self, ObservedPixels, Pixels};
 use super::focal::intrinsics;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::known_camera::{known_cameras, warn_of_unseen};
 use crate::photo::Photo;
 use crate::progress::Progress;
-use crate::turn::{self, left_open, left_open_by_homography};
+use crate::rotation_only::{self, left_open, left_open_by_homography};
 use epipole::camera::{Camera, Intrinsics, RigidTransform};
 use epipole::epipolar::{
     FundamentalEstimator, RelativePose, essential_from_fundamental, estimate_relative_pose,
@@ -80,9 +80,9 @@ impl Found {
     }
 
     /// Records a rotation that explains the inliers.
-    pub(super) fn turned(&mut self, turn: &ExplainingRotation) {
+    pub(super) fn set_rotation_only(&mut self, rotation_only: &ExplainingRotation) {
         self.configuration = "panoramic";
-        self.cam2_from_cam1 = Some(turn.cam2_from_cam1);
+        self.cam2_from_cam1 = Some(rotation_only.cam2_from_cam1);
     }
 }
 
@@ -106,20 +106,20 @@ impl Cameras {
 /// Searches for the requested model.
 ///
 /// # Errors
-/// As the core's searches, and as [`PairArguments::given`](crate::camera::PairArguments::given).
+/// As the core's searches, and as [`PairArguments::explicit`](crate::camera::PairArguments::given).
 pub(super) fn estimate(
     arguments: &Arguments,
     context: &Context,
     photos: &[Photo; 2],
     pixels: Pixels<'_>,
 ) -> Result<Found, Failure> {
-    if arguments.known.is_given() {
+    if arguments.known.is_set() {
         return through_lenses(arguments, context, photos, pixels);
     }
     match arguments.model {
         Model::Auto => {
-            let given = arguments.camera.given(photos)?;
-            let cameras = given.map(|given| Cameras::new(photos, given));
+            let explicit = arguments.camera.explicit(photos)?;
+            let cameras = explicit.map(|explicit| Cameras::new(photos, explicit));
             let report = auto(arguments, context, cameras.as_ref(), pixels)?;
             let errors_px = match (report.model, &report.fundamental) {
                 (TwoViewModel::Homography(h), _) => errors::of_homography(pixels, &h),
@@ -127,7 +127,7 @@ pub(super) fn estimate(
                 (_, None) => vec![0.0; pixels[0].len()],
             };
             let found = Found::of_report(report, errors_px);
-            warn_of_turn(arguments, context, photos, pixels, &found)?;
+            warn_of_rotation(arguments, context, photos, pixels, &found)?;
             Ok(found)
         }
         Model::Fundamental => fundamental(arguments, context, pixels),
@@ -144,14 +144,14 @@ pub(super) fn estimate(
             Ok(found)
         }
         Model::Homography => {
-            let given = arguments.camera.given(photos)?;
+            let explicit = arguments.camera.explicit(photos)?;
             let estimator = HomographyEstimator::new(MatchSet::new(pixels[0], pixels[1])?)?;
             let report = arguments.robust.run(estimator, context)?;
             let errors_px = errors::of_homography(pixels, &report.model);
             // Pixels alone do not distinguish a rotation from a plane.
-            let cameras = given.map(|given| Cameras::new(photos, given));
+            let cameras = explicit.map(|explicit| Cameras::new(photos, explicit));
             let found = planar(arguments, context, cameras, pixels, (report, errors_px))?;
-            warn_of_turn(arguments, context, photos, pixels, &found)?;
+            warn_of_rotation(arguments, context, photos, pixels, &found)?;
             Ok(found)
         }
     }
@@ -166,7 +166,7 @@ fn through_lenses(
 ) -> Result<Found, Failure> {
     let cameras = known_cameras(&arguments.camera, context, photos)?;
     warn_of_unseen(cameras.each_ref(), pixels, context);
-    let seen = SeenPixels::new(cameras.each_ref(), pixels);
+    let observed = ObservedPixels::new(cameras.each_ref(), pixels);
     let cameras = Cameras(cameras);
     match arguments.model {
         Model::Auto | Model::Fundamental => {
@@ -176,15 +176,15 @@ fn through_lenses(
                 ..report
             };
             let errors_px = match report.model {
-                TwoViewModel::Homography(h) => seen.of_homography(&h),
+                TwoViewModel::Homography(h) => observed.of_homography(&h),
                 TwoViewModel::Essential(e) | TwoViewModel::Fundamental(e) => {
-                    seen.of_essential(&e)?
+                    observed.of_essential(&e)?
                 }
             };
             Ok(Found::of_report(report, errors_px))
         }
         Model::Essential => {
-            let errors_px = |pose: &RelativePose| Ok(seen.of_motion(&pose.cam2_from_cam1()));
+            let errors_px = |pose: &RelativePose| Ok(observed.of_motion(&pose.cam2_from_cam1()));
             essential(arguments, context, &cameras, pixels, errors_px)
         }
         Model::Homography => {
@@ -192,7 +192,7 @@ fn through_lenses(
             let report = arguments.robust.watched(context, |options, monitor| {
                 estimate_homography_calibrated(p1, p2, cameras.both(), options, monitor)
             })?;
-            let errors_px = seen.of_homography(&report.model);
+            let errors_px = observed.of_homography(&report.model);
             planar(
                 arguments,
                 context,
@@ -290,9 +290,11 @@ fn essential(
     }
     found.cam2_from_cam1 = Some(pose.cam2_from_cam1());
     let (cameras, inliers) = (cameras.both(), &found.inliers);
-    if let Some(turn) = find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)? {
-        context.warn(&turn::sentence(&turn));
-        found.turned(&turn);
+    if let Some(rotation_only) =
+        find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)?
+    {
+        context.warn(&rotation_only::sentence(&rotation_only));
+        found.set_rotation_only(&rotation_only);
     }
     Ok(found)
 }
@@ -310,15 +312,17 @@ fn planar(
     let mut found = Found::of_search(["homography", "planar"], h, errors_px, report, &options);
     if let (Some(cameras), "planar") = (cameras, found.configuration) {
         let (cameras, inliers) = (cameras.both(), &found.inliers);
-        let turn = find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)?;
-        turn.iter().for_each(|turn| found.turned(turn));
+        let rotation_only = find_explaining_rotation(pixels1, pixels2, cameras, inliers, &judging)?;
+        rotation_only
+            .iter()
+            .for_each(|rotation_only| found.set_rotation_only(rotation_only));
     }
     Ok(found)
 }
 
 /// Warns of a plane that did not move, or that may be a rotation with another focal length than the
 /// given, read or guessed one.
-fn warn_of_turn(
+fn warn_of_rotation(
     arguments: &Arguments,
     context: &Context,
     photos: &[Photo; 2],
@@ -331,12 +335,18 @@ fn warn_of_turn(
     let options = arguments.options(context).within(found.max_error_px);
     let inliers = &found.inliers;
     let unmoved = left_open_by_homography(pixels1, pixels2, inliers, &options.ransac)?;
-    let can_guess = arguments.first.is_some() || arguments.camera.is_given();
+    let can_guess = arguments.first.is_some() || arguments.camera.is_set();
     let sentence = match unmoved {
         None if can_guess => {
             let ([k1, k2], _) = arguments.camera.or_guess(photos)?;
             let cameras = [photos[0].camera(k1), photos[1].camera(k2)];
-            turn::sentence_of_other_focal(pixels1, pixels2, cameras.each_ref(), inliers, &options)?
+            rotation_only::sentence_of_other_focal(
+                pixels1,
+                pixels2,
+                cameras.each_ref(),
+                inliers,
+                &options,
+            )?
         }
         unmoved => unmoved,
     };
@@ -358,7 +368,7 @@ pub(super) fn word(configuration: Configuration) -> &'static str {
 
 /// Returns whether no more matches agree than wrong ones might.
 fn is_degenerate<M>(report: &RansacReport<M>, options: &TwoViewOptions) -> bool {
-    report.could_be_chance() || report.num_unique_inliers < options.min_num_inliers
+    report.could_be_random() || report.num_unique_inliers < options.min_num_inliers
 }
 
 /// Returns the configuration of the views, if the model is significant.

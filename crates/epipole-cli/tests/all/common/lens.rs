@@ -64,30 +64,27 @@ type Sight = Option<(usize, Point2<f64>)>;
 fn sight(camera: &Camera, k: &Intrinsics, pixel: [u32; 2]) -> Sight {
     let ray = camera.unproject(&Point2::from(pixel.map(f64::from))).ok()?;
     let facing = |axes: Matrix3<f64>| {
-        let turned = axes * ray;
-        (turned.z / turned.amax() > 0.999_999).then_some(turned)
+        let rotated = axes * ray;
+        (rotated.z / rotated.amax() > 0.999_999).then_some(rotated)
     };
-    let (side, turned) =
+    let (side, rotated) =
         (sides().into_iter().enumerate()).find_map(|(side, axes)| Some((side, facing(axes)?)))?;
-    Some((side, k.project(&turned.into()).unwrap()))
+    Some((side, k.project(&rotated.into()).unwrap()))
 }
 
 /// Photographs of the still life through a camera's lens from several poses: the sides of a cube,
 /// each rendered by a pinhole camera, and sampled where the rays of the camera's pixels meet them.
-pub(crate) fn photographs<const N: usize>(
-    camera: &Camera,
-    poses: [RigidTransform; N],
-) -> [RgbImage; N] {
+pub(crate) fn photos<const N: usize>(camera: &Camera, poses: [RigidTransform; N]) -> [RgbImage; N] {
     let side = 500;
     let k = Intrinsics::centered(0.48 * f64::from(side), side, side).unwrap();
     let scene = Scene::still_life();
     let pixels = (0..camera.height).flat_map(|v| (0..camera.width).map(move |u| [u, v]));
     let sights: Vec<Sight> = pixels.map(|pixel| sight(camera, &k, pixel)).collect();
     poses.map(|cam_from_world| {
-        let side_photograph = |axes: Matrix3<f64>| {
-            let turn = Rotation3::from_matrix_unchecked(axes);
-            let turn = UnitQuaternion::from_rotation_matrix(&turn);
-            let to_side = RigidTransform::from_parts(Vector3::zeros().into(), turn);
+        let side_photo = |axes: Matrix3<f64>| {
+            let rotation = Rotation3::from_matrix_unchecked(axes);
+            let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+            let to_side = RigidTransform::from_parts(Vector3::zeros().into(), rotation);
             let side_camera = PosedCamera {
                 camera: Camera::pinhole(k, 640, 480),
                 cam_from_world: to_side * cam_from_world,
@@ -101,7 +98,7 @@ pub(crate) fn photographs<const N: usize>(
             let Some((n, place)) = sights[(v * camera.width + u) as usize] else {
                 return Rgb([0; 3]);
             };
-            let shown = shown[n].get_or_init(|| side_photograph(sides()[n]));
+            let shown = shown[n].get_or_init(|| side_photo(sides()[n]));
             between(shown, place)
         })
     })
@@ -146,7 +143,7 @@ fn gray(x: f64, y: f64) -> f64 {
 }
 
 /// Photograph of a wall through a camera's lens; the wall is the plane z = 0 of the world.
-pub(crate) fn wall_photograph(camera: &Camera, cam_from_world: &RigidTransform) -> RgbImage {
+pub(crate) fn wall_photo(camera: &Camera, cam_from_world: &RigidTransform) -> RgbImage {
     let world_from_cam = cam_from_world.inverse();
     let center = world_from_cam.translation.vector;
     RgbImage::from_fn(camera.width, camera.height, |u, v| {

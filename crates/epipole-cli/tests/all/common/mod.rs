@@ -49,24 +49,24 @@ impl Folder {
     }
 
     /// A photograph of the still life as a PNG file, with its depth.
-    pub(crate) fn photograph(
+    pub(crate) fn write_photo(
         &self,
         name: &str,
         camera: &PosedCamera,
         size: (u32, u32),
     ) -> Photograph {
-        let photograph = Scene::still_life()
+        let photo = Scene::still_life()
             .render(camera, size.0, size.1, Sampling::Full)
             .unwrap();
-        photograph.image.save(self.file(name)).unwrap();
-        photograph
+        photo.image.save(self.file(name)).unwrap();
+        photo
     }
 
     /// Photographs of the still life in a folder: 0.png, 1.png …
-    pub(crate) fn photographs(&self, sub: &str, cameras: &[PosedCamera], size: (u32, u32)) {
+    pub(crate) fn write_photos(&self, sub: &str, cameras: &[PosedCamera], size: (u32, u32)) {
         std::fs::create_dir_all(self.file(sub)).unwrap();
         for (n, camera) in cameras.iter().enumerate() {
-            self.photograph(&format!("{sub}/{n}.png"), camera, size);
+            self.write_photo(&format!("{sub}/{n}.png"), camera, size);
         }
     }
 
@@ -175,9 +175,9 @@ pub(crate) fn fails(folder: &Folder, arguments: &[&str], status: i32, expected: 
         "{arguments:?}: {sentence}"
     );
     assert!(plain.stdout.is_empty(), "{arguments:?} prints no result");
-    let told = sentence.lines().find(|line| line.starts_with("error: "));
+    let error_line = sentence.lines().find(|line| line.starts_with("error: "));
     assert!(
-        told.is_some() && sentence.contains(expected) && !sentence.contains("panicked"),
+        error_line.is_some() && sentence.contains(expected) && !sentence.contains("panicked"),
         "{arguments:?}: {sentence}"
     );
     let output = epipole(&[arguments, &["--json"]].concat());

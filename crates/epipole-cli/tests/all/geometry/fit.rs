@@ -9,8 +9,8 @@ fn fit_finds_the_motion_between_two_cameras() {
     let file = file_of(&folder, &problem);
     let result = json(&["fit", "--model", "essential", path(&file), "--k", K]);
     let truth = cam2_from_cam1(&problem.camera1, &problem.camera2);
-    let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
-    assert!(turn < 1e-4 && direction < 1e-3, "{turn} {direction}");
+    let (angle, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
+    assert!(angle < 1e-4 && direction < 1e-3, "{angle} {direction}");
     // No true match is missed; a wrong one may lie on its epipolar line by chance.
     let found = mask(&result);
     assert!(
@@ -19,11 +19,11 @@ fn fit_finds_the_motion_between_two_cameras() {
             .zip(&problem.is_inlier)
             .all(|(found, is)| *found || !is)
     );
-    let by_chance = found
+    let is_random = found
         .iter()
         .zip(&problem.is_inlier)
         .filter(|(f, is)| **f && !**is);
-    assert!(by_chance.count() < 10);
+    assert!(is_random.count() < 10);
     let count = found.iter().filter(|found| **found).count();
     assert_eq!(result["num_inliers"].as_u64(), Some(count as u64));
     assert!(result["iterations"].as_u64().unwrap() > 0);
@@ -47,8 +47,8 @@ fn fit_finds_the_motion_where_gravity_is_known() {
     let fit = ["fit", "--model", "essential", path(&file), "--k", K];
     let result = json(&[&fit[..], &known].concat());
     let truth = cam2_from_cam1(&problem.camera1, &problem.camera2);
-    let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
-    assert!(turn < 1e-4 && direction < 1e-3, "{turn} {direction}");
+    let (angle, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &truth);
+    assert!(angle < 1e-4 && direction < 1e-3, "{angle} {direction}");
     let free = json(&fit);
     let samples = |result: &Value| result["required_iterations"].as_u64().unwrap();
     assert!(samples(&result) < samples(&free));
@@ -163,7 +163,7 @@ fn fit_finds_similarities_and_lines() {
 }
 
 #[test]
-fn files_of_matches_that_say_nothing_are_refused() {
+fn insignificant_match_files_are_rejected() {
     let folder = Folder::new("fit-bad");
     let good = "10 20 30 40\n50 60 70 80\n15 70 33 21\n90 11 40 44\n";
     let same = "10 20 30 40\n".repeat(30);
@@ -245,7 +245,7 @@ fn files_of_matches_that_say_nothing_are_refused() {
 }
 
 #[test]
-fn matches_that_are_no_pixels_are_told() {
+fn matches_that_are_no_pixels_are_reported() {
     let folder = Folder::new("fit-units");
     let rows =
         "0.1 0.2 0.3 0.4\n0.2 0.1 0.3 0.2\n0.5 0.3 0.4 0.2\n0.2 0.9 0.1 0.8\n0.7 0.3 0.3 0.1\n";

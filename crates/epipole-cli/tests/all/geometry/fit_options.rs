@@ -58,7 +58,7 @@ fn fit_finds_the_threshold_from_the_noise() {
 
 /// Each option of the core's loop is available, and takes effect.
 #[test]
-fn fit_says_how_the_loop_is_to_run() {
+fn fit_options_control_the_loop() {
     let folder = Folder::new("fit-loop");
     let file = file_of(&folder, &problem(cube()));
     let fit = |options: &[&str]| {
@@ -142,7 +142,7 @@ fn a_byte_order_mark_is_no_part_of_a_row() {
 /// The output gives the reason for the end and the required number of samples, with a warning if
 /// that exceeds the limit.
 #[test]
-fn fits_tell_whether_they_are_confident() {
+fn fits_report_whether_they_are_confident() {
     let folder = Folder::new("fit-stop");
     let problem = problem(cube());
     let file = file_of(&folder, &problem);
@@ -152,15 +152,15 @@ fn fits_tell_whether_they_are_confident() {
         assert_eq!(output.status.code(), Some(0));
         (parse(&output), String::from_utf8(output.stderr).unwrap())
     };
-    let (result, told) = fit(&[]);
+    let (result, stderr) = fit(&[]);
     assert_eq!(result["stop"], "confident");
     let num_inliers = usize::try_from(result["num_inliers"].as_u64().unwrap()).unwrap();
     let required = num_trials_without_replacement(num_inliers, 250, 7, 0.999).unwrap();
     assert_eq!(result["required_iterations"], required);
     assert!(result["iterations"].as_u64().unwrap() >= required);
-    assert!(told.is_empty(), "{told}");
+    assert!(stderr.is_empty(), "{stderr}");
 
-    let (result, told) = fit(&["--max-iterations", "30"]);
+    let (result, stderr) = fit(&["--max-iterations", "30"]);
     assert_eq!(
         (&result["stop"], &result["iterations"]),
         (&"exhausted".into(), &30.into())
@@ -168,9 +168,9 @@ fn fits_tell_whether_they_are_confident() {
     let required = result["required_iterations"].as_u64().unwrap();
     assert!(required > 30);
     let sentence = format!("warning: ended by --max-iterations 30: with so few inliers {required}");
-    assert!(told.contains(&sentence), "{told}");
-    let (_, told) = fit(&["--max-iterations", "30", "--quiet"]);
-    assert!(told.is_empty(), "{told}");
+    assert!(stderr.contains(&sentence), "{stderr}");
+    let (_, stderr) = fit(&["--max-iterations", "30", "--quiet"]);
+    assert!(stderr.is_empty(), "{stderr}");
 
     // A line through 2 of 2 000 points: more samples than can be counted in seconds, still a
     // number.
@@ -201,7 +201,7 @@ fn fits_tell_whether_they_are_confident() {
 
 /// Unrelated rows: some agree nevertheless, and there is a warning.
 #[test]
-fn chance_is_told_from_a_model() {
+fn random_matches_are_distinguished_from_a_model() {
     let folder = Folder::new("fit-chance");
     let mut random = Random::new(3);
     let mut anywhere = || -> Vec<Point2<f64>> {
@@ -215,13 +215,13 @@ fn chance_is_told_from_a_model() {
             arguments.extend(["--k", K]);
         }
         let output = epipole(&arguments);
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert!(told.contains("is not significant"), "{model}: {told}");
-        assert_eq!(parse(&output)["could_be_chance"], true, "{model}");
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(stderr.contains("is not significant"), "{model}: {stderr}");
+        assert_eq!(parse(&output)["could_be_random"], true, "{model}");
     }
     let file = file_of(&folder, &problem(cube()));
     let result = json(&["fit", "--model", "fundamental", path(&file)]);
-    assert_eq!(result["could_be_chance"], false);
+    assert_eq!(result["could_be_random"], false);
 }
 
 /// Rows sorted by quality let PROSAC finish while uniform samples are still searching.

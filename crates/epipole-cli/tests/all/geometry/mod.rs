@@ -2,7 +2,7 @@
 
 mod fit;
 mod fit_options;
-mod photographs;
+mod photos;
 
 use crate::common::{
     Folder, angle_deg, epipole, fails, json, k, matrix, motion, moved, numbers, parse, path,

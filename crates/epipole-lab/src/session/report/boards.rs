@@ -52,7 +52,7 @@ impl Project {
             Some(size) if size != found.picture.full_size => {
                 BoardOutcome::OtherSize(found.picture.full_size, size)
             }
-            _ => BoardOutcome::Found(found.num_seen()),
+            _ => BoardOutcome::Found(found.num_visible()),
         }
     }
 

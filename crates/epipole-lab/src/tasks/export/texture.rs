@@ -33,7 +33,7 @@ pub(super) fn texture(
     photos: &[RgbImage],
     monitor: Monitor<'_>,
 ) -> Result<Option<MeshTexture>, String> {
-    let mut watch = |status: Status| monitor(Progress::Share(status.share, "texturing"));
+    let mut watch = |status: Status| monitor(Progress::Share(status.fraction, "texturing"));
     let options = MvsOptions::default().with_max_size_px(MAX_PHOTO_PX);
     let part = &mut Part::new(&mut watch, 0.0, PREPARED);
     let views = match prepare_views(model, photos, &options, part) {

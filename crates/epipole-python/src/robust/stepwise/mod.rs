@@ -89,8 +89,8 @@ impl Ransac {
     ) -> PyResult<Self> {
         let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
         let give = |py: Python<'_>, best: &Arc<Scored>| Ok(best.model.clone_ref(py));
-        let read = |model: &Callables, given: &Bound<'_, PyAny>| {
-            (model.model(given.clone().unbind()))
+        let read = |model: &Callables, argument: &Bound<'_, PyAny>| {
+            (model.model(argument.clone().unbind()))
                 .ok_or_else(|| PyTypeError::new_err("errors gave no errors of the model"))
         };
         Ok(Self(start(Ok(model), options, give, read, raised)?))

@@ -63,7 +63,7 @@ impl question::Question for Question {
         let [left, right] = &pair.pictures;
         let [left, right] = [left, right].map(|picture| rgb_to_gray(picture.image()));
         let found = self.search(&left, &right, &mut |status: Status| {
-            progress(0.6 + 0.4 * f64::from(status.share))
+            progress(0.6 + 0.4 * f64::from(status.fraction))
         })?;
         let found = Map(found.as_raw().to_vec());
         Ok(Answer {

@@ -111,7 +111,7 @@ fn find_matches(
         &first.descriptors,
         &second.descriptors,
         &any_ratio,
-        &mut |status: Status| progress(f64::from(status.share)),
+        &mut |status: Status| progress(f64::from(status.fraction)),
     )?;
     let mut matches: Vec<Match> = Vec::with_capacity(found.len());
     for found in &found {

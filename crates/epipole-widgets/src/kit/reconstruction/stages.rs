@@ -161,6 +161,6 @@ fn features(picture: &Picture, progress: Progress<'_>) -> Result<Features, Error
     detect_sift(
         &photo_to_gray(picture.image()),
         &options.sift(width, height),
-        &mut |status: Status| progress(f64::from(status.share)),
+        &mut |status: Status| progress(f64::from(status.fraction)),
     )
 }

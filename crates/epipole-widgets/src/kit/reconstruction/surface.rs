@@ -79,7 +79,7 @@ pub(super) fn surface(
         .with_filter(DisparityFilter::default().with_speckle_size(SPECKLE_PX));
     let found = redrawn.disparity(|first, second| {
         matcher.compute(first, second, &mut |status: Status| {
-            progress(f64::from(status.share))
+            progress(f64::from(status.fraction))
         })
     })?;
     // First every other pixel of every other row, then the rest.

@@ -52,7 +52,7 @@ pub(super) fn depth_ratios(
             continue;
         }
         if let Some(start) = best.rest(*root) {
-            let [z2, z3, z4, z1] = improved(&quadrics, start).data.0[0];
+            let [z2, z3, z4, z1] = polish_solution(&quadrics, start).data.0[0];
             let depths = Vector4::new(z1, z2, z3, z4);
             if depths.iter().all(|z| z.is_finite() && *z > 0.0) {
                 solutions.push(depths);
@@ -207,7 +207,7 @@ impl Elimination {
 }
 
 /// Improves a solution by a few Gauss–Newton steps on the four quadrics.
-fn improved(quadrics: &[Quadric; 4], start: Vector4<f64>) -> Vector4<f64> {
+fn polish_solution(quadrics: &[Quadric; 4], start: Vector4<f64>) -> Vector4<f64> {
     let value = |z: &Vector4<f64>| Vector4::from_fn(|q, _| z.dot(&(quadrics[q] * z)));
     let mut z = start;
     for _ in 0..STEPS {

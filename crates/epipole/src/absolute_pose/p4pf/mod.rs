@@ -204,22 +204,22 @@ impl Sample {
         if !(focal > 0.0 && scale > 0.0 && focal.is_finite() && scale.is_finite()) {
             return None;
         }
-        let seen = |i: usize| {
+        let about = |i: usize| {
             Vector3::new(
                 self.pixels[i].x * z[i],
                 self.pixels[i].y * z[i],
                 focal * z[i],
             ) / scale
         };
-        let first = seen(0);
-        let turned = Matrix3::from_columns(&[1, 2, 3].map(|i| seen(i) - first));
-        let mirrored = turned.determinant() * self.sides.determinant() < 0.0;
+        let first = about(0);
+        let rotated = Matrix3::from_columns(&[1, 2, 3].map(|i| about(i) - first));
+        let mirrored = rotated.determinant() * self.sides.determinant() < 0.0;
         // Align the centroids of both sets, not their first points.
         let middle = |sides: &Matrix3<f64>| sides.column_sum() / 4.0;
-        let (m1, m2) = (middle(&self.sides), middle(&turned));
+        let (m1, m2) = (middle(&self.sides), middle(&rotated));
         let mut sums = m2 * m1.transpose();
         for i in 0..3 {
-            sums += (turned.column(i) - m2) * (self.sides.column(i) - m1).transpose();
+            sums += (rotated.column(i) - m2) * (self.sides.column(i) - m1).transpose();
         }
         let svd = svd3(&sums);
         let sign = (svd.u.determinant() * svd.v.determinant()).signum();

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3, Vector4};
 
 /// Minimum relative coefficient of a point: with a smaller one the other three are collinear.
-const NO_SHARE: f64 = 1e-9;
+const NO_WEIGHT: f64 = 1e-9;
 
 /// Returns the depths of four coplanar points, relative to the first; `None` if three of them are
 /// collinear, or one would be behind the camera.
@@ -27,9 +27,9 @@ pub(super) fn depth_ratios(
         minor(0, 1, 3),
         -minor(0, 1, 2),
     );
-    let is_whole = |v: &Vector4<f64>| v.iter().all(|x| x.abs() > NO_SHARE * v.amax());
+    let is_whole = |v: &Vector4<f64>| v.iter().all(|x| x.abs() > NO_WEIGHT * v.amax());
     // A plane seen edge-on is a line.
-    if !(is_whole(&b) && is_whole(&null) && null.amax() > NO_SHARE) {
+    if !(is_whole(&b) && is_whole(&null) && null.amax() > NO_WEIGHT) {
         return None;
     }
     let depths = null.component_div(&b);

@@ -20,8 +20,8 @@ fn off(
 ) -> Option<(f64, f64)> {
     let errors = |s: &AbsolutePoseWithFocal| {
         let t = s.cam_from_world.translation.vector - truth.translation.vector;
-        let turn = s.cam_from_world.rotation.angle_to(&truth.rotation);
-        ((s.focal_px / focal_px - 1.0).abs(), turn + t.norm())
+        let angle = s.cam_from_world.rotation.angle_to(&truth.rotation);
+        ((s.focal_px / focal_px - 1.0).abs(), angle + t.norm())
     };
     let all = solutions.iter().map(errors);
     all.min_by(|a, b| (a.0 + a.1).total_cmp(&(b.0 + b.1)))
@@ -55,9 +55,9 @@ fn ten_thousand_problems() {
 
 /// Four points on a plane that is tilted by 10° or more.
 fn tilted(random: &mut Random) -> (RigidTransform, [Point3<f64>; 4]) {
-    let turn = Vector3::from_fn(|_, _| random.normal());
+    let rotation_vector = Vector3::from_fn(|_, _| random.normal());
     let t = Vector3::from_fn(|_, _| random.normal());
-    let truth = RigidTransform::new(t, turn);
+    let truth = RigidTransform::new(t, rotation_vector);
     let (axis, angle) = (random.uniform(0.0, 6.3), random.uniform(0.17, 1.0));
     let tilt =
         Rotation3::from_scaled_axis(Vector3::new(libm::cos(axis), libm::sin(axis), 0.0) * angle);
@@ -137,10 +137,14 @@ fn far_from_the_origin_and_in_any_unit() {
             // The pixels are known to 1e-13 of the points' distance from the origin.
             assert!((best.focal_px / 800.0 - 1.0).abs() < 1e-6, "{best:?}");
             for (x, pixel) in moved.iter().zip(&pixels) {
-                let seen = camera(best.focal_px)
+                let projected = camera(best.focal_px)
                     .project(&(best.cam_from_world * x))
                     .unwrap();
-                assert!((seen - pixel).norm() < 1e-3, "{}", (seen - pixel).norm());
+                assert!(
+                    (projected - pixel).norm() < 1e-3,
+                    "{}",
+                    (projected - pixel).norm()
+                );
             }
         }
     }
@@ -154,21 +158,21 @@ fn degenerate_input_has_no_solution_or_finite_ones() {
     // A plane that faces the camera.
     let square = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let facing = square.map(|(x, y)| Point3::new(x, y, 5.0));
-    let seen = facing.map(|x| camera(700.0).project(&x).unwrap());
-    assert!(pose_p4pf(&seen, &facing, &CENTER).is_empty());
+    let projected = facing.map(|x| camera(700.0).project(&x).unwrap());
+    assert!(pose_p4pf(&projected, &facing, &CENTER).is_empty());
     // Equal points, equal pixels, three and four points on a line.
     assert!(pose_p4pf(&pixels, &[points[0]; 4], &CENTER).is_empty());
     assert!(pose_p4pf(&[CENTER; 4], &points, &CENTER).is_empty());
     let line = [0.0, 1.0, 2.5, 4.0].map(|s| Point3::new(s, 0.3 * s, 5.0 - 0.5 * s));
-    let seen = line.map(|x| camera(700.0).project(&x).unwrap());
-    assert!(pose_p4pf(&seen, &line, &CENTER).is_empty());
+    let projected = line.map(|x| camera(700.0).project(&x).unwrap());
+    assert!(pose_p4pf(&projected, &line, &CENTER).is_empty());
     let three = [line[0], line[1], line[2], Point3::new(0.0, 2.0, 6.0)];
-    let seen = three.map(|x| camera(700.0).project(&x).unwrap());
-    assert!(pose_p4pf(&seen, &three, &CENTER).is_empty());
+    let projected = three.map(|x| camera(700.0).project(&x).unwrap());
+    assert!(pose_p4pf(&projected, &three, &CENTER).is_empty());
     // A plane seen edge-on.
     let side = square.map(|(x, y)| Point3::new(0.0, x + 0.2 * y, 5.0 + y));
-    let seen = side.map(|x| camera(700.0).project(&x).unwrap());
-    assert!(pose_p4pf(&seen, &side, &CENTER).is_empty());
+    let projected = side.map(|x| camera(700.0).project(&x).unwrap());
+    assert!(pose_p4pf(&projected, &side, &CENTER).is_empty());
     // Coordinates that are not finite, or far too large.
     for bad in [f64::NAN, f64::INFINITY, 1e300, -1e200] {
         for place in 0..4 {

@@ -7,7 +7,7 @@ use super::advice::{CalibrationWarning, warnings};
 use super::calibrated_view::CalibratedView;
 use super::coverage::coverage;
 use super::problem::{
-    OF_CAMERA, Problem, SHARED, SeenMark, State, camera_numbers, intrinsics_of, lens_of,
+    DetectedMark, OF_CAMERA, Problem, SHARED, State, camera_numbers, intrinsics_of, lens_of,
     pose_state, strict,
 };
 use super::start::{board_pose, plain, starts};
@@ -93,8 +93,8 @@ pub struct Calibration {
 /// let board = Board::new(Pattern::Chessboard, 7, 5, 0.03)?;
 /// let k = Intrinsics::new(600.0, 605.0, 322.0, 238.0)?;
 /// let mut views = Vec::new();
-/// for turn in [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.0], [0.1, -0.5, 0.2]] {
-///     let pose = RigidTransform::new(Vector3::new(-0.09, -0.06, 0.4), Vector3::from(turn));
+/// for rotation_vector in [[0.5, 0.0, 0.1], [-0.5, 0.1, 0.0], [0.0, 0.5, 0.0], [0.1, -0.5, 0.2]] {
+///     let pose = RigidTransform::new(Vector3::new(-0.09, -0.06, 0.4), Vector3::from(rotation_vector));
 ///     let pixel = |mark| {
 ///         let p = board.mark(mark);
 ///         k.project(&(pose * Point3::new(p.x, p.y, 0.0))).ok()
@@ -116,30 +116,38 @@ pub fn calibrate(
 ) -> Result<Calibration> {
     report(monitor, Stage::Calibration, 0.0)?;
     check(board, views, size)?;
-    let given: Vec<&BoardView> = views.iter().flatten().collect();
-    if given.len() < 2 {
+    let found_views: Vec<&BoardView> = views.iter().flatten().collect();
+    if found_views.len() < 2 {
         return Err(Error::TooFew {
             what: "a calibration from views of a board",
             needed: 2,
-            got: given.len(),
+            got: found_views.len(),
         });
     }
     let kind = options.lens;
     let problem = Problem::new(
         marks(board),
-        observations(&given, 0),
-        given.len(),
+        observations(&found_views, 0),
+        found_views.len(),
         [kind; 2],
         held(kind),
     );
     let mut best: Option<(f64, State)> = None;
     let mut failure = None;
-    let starts = starts(board, &given, size, kind)?;
+    let starts = starts(board, &found_views, size, kind)?;
     let num_starts = starts.len() as f32;
     for (index, start) in starts.into_iter().enumerate() {
-        let share = index as f32 / num_starts;
-        let mut step = Part::new(monitor, share, share).of_stage(Stage::Calibration);
-        match refine_from(board, &given, start, size, options, &problem, &mut step) {
+        let fraction = index as f32 / num_starts;
+        let mut step = Part::new(monitor, fraction, fraction).of_stage(Stage::Calibration);
+        match refine_from(
+            board,
+            &found_views,
+            start,
+            size,
+            options,
+            &problem,
+            &mut step,
+        ) {
             Err(Error::Canceled) => return Err(Error::Canceled),
             Ok((cost, state)) => {
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -183,11 +191,11 @@ pub fn calibrate(
             Some(CalibratedView {
                 cam_from_board: State::pose(&state.views[place]),
                 rms_px: problem.rms_px(&state, |o| o.view == place),
-                num_marks: view.num_seen(),
+                num_marks: view.num_visible(),
             })
         })
         .collect();
-    let coverage = coverage(&given, size);
+    let coverage = coverage(&found_views, size);
     Ok(Calibration {
         camera,
         rms_px: problem.rms_px(&state, |_| true),
@@ -211,15 +219,15 @@ pub(super) fn marks(board: &Board) -> Vec<Point3<f64>> {
     (0..board.num_marks()).map(mark).collect()
 }
 
-pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<SeenMark> {
-    let of_view = |(view, seen): (usize, &&BoardView)| {
-        let of_mark = move |(mark, pixel)| SeenMark {
+pub(super) fn observations(views: &[&BoardView], eye: usize) -> Vec<DetectedMark> {
+    let of_view = |(view, board_view): (usize, &&BoardView)| {
+        let of_mark = move |(mark, pixel)| DetectedMark {
             view,
             mark,
             eye,
             pixel,
         };
-        seen.seen().map(of_mark).collect::<Vec<_>>()
+        board_view.visible().map(of_mark).collect::<Vec<_>>()
     };
     views.iter().enumerate().flat_map(of_view).collect()
 }
@@ -245,11 +253,11 @@ pub(super) fn check(
     }
     for view in views.iter().flatten() {
         view.check(board)?;
-        if view.num_seen() < 4 {
+        if view.num_visible() < 4 {
             return Err(Error::TooFew {
                 what: "a view of a board, for a calibration from its marks,",
                 needed: 4,
-                got: view.num_seen(),
+                got: view.num_visible(),
             });
         }
     }

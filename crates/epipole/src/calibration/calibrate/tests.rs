@@ -78,7 +78,7 @@ fn deviations_are_what_repetition_shows() {
     let camera = truth(LensKind::Brown);
     let exact = views(&camera, &poses(&board(), 10, 15.0, 6), 0.0);
     let mut random = Random::new(1);
-    let (mut focals, mut said) = (Vec::new(), 0.0);
+    let (mut focals, mut stated) = (Vec::new(), 0.0);
     for _ in 0..100 {
         let mut noisy = exact.clone();
         for pixel in noisy
@@ -99,11 +99,11 @@ fn deviations_are_what_repetition_shows() {
         // Two coordinates, minus the degrees of freedom that the parameters absorb.
         assert!((found.rms_px / (0.3 * 2.0_f64.sqrt()) - 1.0).abs() < 0.15);
         focals.push(found.camera.intrinsics.fu_px());
-        said += found.std_dev_k[0] / 100.0;
+        stated += found.std_dev_k[0] / 100.0;
     }
     let mean = focals.iter().sum::<f64>() / 100.0;
     let spread = (focals.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>() / 99.0).sqrt();
-    assert!((spread / said - 1.0).abs() < 0.25, "{spread} {said}");
+    assert!((spread / stated - 1.0).abs() < 0.25, "{spread} {stated}");
     assert!((mean - 540.0).abs() < 0.4 * spread, "{mean} {spread}");
 }
 
@@ -121,8 +121,8 @@ fn it_can_be_stopped_at_every_step() {
             &options,
             &mut |status: Status| {
                 assert_eq!(status.stage, Stage::Calibration);
-                assert!((last..=1.0).contains(&status.share));
-                (calls, last) = (calls + 1, status.share);
+                assert!((last..=1.0).contains(&status.fraction));
+                (calls, last) = (calls + 1, status.fraction);
                 if calls <= most {
                     ControlFlow::Continue(())
                 } else {
@@ -160,11 +160,11 @@ fn bad_sets_get_a_sentence() {
         assert!(matches!(error, Error::TooFew { needed: 2, .. }), "{error}");
     }
     // Parallel to each other, and to the image.
-    for turn in [Vector3::new(0.3, 0.2, 0.0), Vector3::zeros()] {
+    for tilt in [Vector3::new(0.3, 0.2, 0.0), Vector3::zeros()] {
         let parallel: Vec<RigidTransform> = (0..6)
             .map(|i| {
                 let at = 0.02 * f64::from(i) - 0.15;
-                RigidTransform::new(Vector3::new(at, at + 0.08, 0.4 + 0.03 * f64::from(i)), turn)
+                RigidTransform::new(Vector3::new(at, at + 0.08, 0.4 + 0.03 * f64::from(i)), tilt)
             })
             .collect();
         match run(&views(&camera, &parallel, 0.3)) {
@@ -211,7 +211,7 @@ fn bad_sets_get_a_sentence() {
     for pixel in bent[2].as_mut().unwrap().pixels.iter_mut().flatten() {
         pixel.y += 2.0 * libm::sin(pixel.x / 15.0);
     }
-    let told = run(&bent).unwrap().warnings;
+    let warnings = run(&bent).unwrap().warnings;
     let named = |w: &CalibrationWarning| matches!(w, CalibrationWarning::BadView { number: 3, .. });
-    assert!(told.iter().any(named), "{told:?}");
+    assert!(warnings.iter().any(named), "{warnings:?}");
 }

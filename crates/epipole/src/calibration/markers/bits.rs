@@ -53,7 +53,7 @@ pub(super) fn read_bits(
     let cell = |k: usize| Cell {
         x: center(k % side),
         y: center(k / side),
-        gray: sharpened(&grays, k, side),
+        gray: sharpen_cell(&grays, k, side),
     };
     let all: Vec<Cell> = (0..side * side).map(cell).collect();
     let inside = cells.border..side - cells.border;
@@ -87,7 +87,7 @@ fn cell_grays(image: &GrayImage32, pixel_from_marker: &Matrix3<f64>, side: usize
     (0..side * side).map(mean).collect()
 }
 
-fn sharpened(grays: &[f64], k: usize, side: usize) -> f64 {
+fn sharpen_cell(grays: &[f64], k: usize, side: usize) -> f64 {
     let (column, row) = (k % side, k / side);
     let beside = [
         (column > 0).then(|| k - 1),
@@ -154,7 +154,7 @@ mod tests {
     use image::Luma;
 
     /// A marker of 4 × 4 bits, 8 pixels per cell, with illumination that falls to a third.
-    fn drawn(bits: u64) -> GrayImage32 {
+    fn draw_marker(bits: u64) -> GrayImage32 {
         GrayImage32::from_fn(48, 48, |u, v| {
             let (column, row) = (u / 8, v / 8);
             let is_inside = (1..5).contains(&column) && (1..5).contains(&row);
@@ -173,13 +173,13 @@ mod tests {
     #[test]
     fn bits_are_read_under_uneven_light() {
         for bits in [0b1011_0101_0011_0010, 0b0100_1111_0010_1110] {
-            assert_eq!(read_bits(&drawn(bits), &upright(), CELLS), Some(bits));
+            assert_eq!(read_bits(&draw_marker(bits), &upright(), CELLS), Some(bits));
         }
     }
 
     #[test]
     fn a_white_border_is_no_marker() {
-        let mut image = drawn(0b1011_0101_0011_0010);
+        let mut image = draw_marker(0b1011_0101_0011_0010);
         for (u, _, value) in image.enumerate_pixels_mut() {
             if u < 8 {
                 *value = Luma([0.9]);

@@ -120,11 +120,11 @@ pub fn detect_markers(
     let mut level: Option<GrayImage32> = None;
     let mut scale = 1.0;
     // A level costs a quarter of the previous one.
-    let mut share = 0.0;
+    let mut fraction = 0.0;
     loop {
-        report(monitor, Stage::FeatureDetection, share)?;
-        let (from, middle) = (share, share + 0.4 * (1.0 - share));
-        share += 0.75 * (1.0 - share);
+        report(monitor, Stage::FeatureDetection, fraction)?;
+        let (from, middle) = (fraction, fraction + 0.4 * (1.0 - fraction));
+        fraction += 0.75 * (1.0 - fraction);
         let here = level.as_ref().unwrap_or(image);
         let is_last = here.width().max(here.height()) <= COARSEST_SIDE;
         let sides = Sides {
@@ -133,7 +133,7 @@ pub fn detect_markers(
         };
         let quads = find_quads(here, sides, &mut Part::new(monitor, from, middle))?;
         for (k, quad) in quads.iter().enumerate() {
-            let done = middle + (share - middle) * k as f32 / quads.len() as f32;
+            let done = middle + (fraction - middle) * k as f32 / quads.len() as f32;
             report(monitor, Stage::FeatureDetection, done)?;
             let Some((corners, bits)) = read_quad(here, quad, cells) else {
                 continue;

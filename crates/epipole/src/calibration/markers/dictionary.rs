@@ -58,7 +58,7 @@ struct Facts {
 
 /// Returns the original row and column of a bit in a marker rotated clockwise by `quarters` times
 /// 90°.
-fn turned_back((row, column): (usize, usize), quarters: usize, side: usize) -> (usize, usize) {
+fn rotated_back((row, column): (usize, usize), quarters: usize, side: usize) -> (usize, usize) {
     let last = side - 1;
     match quarters % 4 {
         0 => (row, column),
@@ -214,7 +214,7 @@ impl MarkerDictionary {
             (0..num_bits).fold(0, |code, k| {
                 // A bit of the upright marker is at the position given by the remaining rotation.
                 let place = (k / facts.side, k % facts.side);
-                let (row, column) = turned_back(place, 4 - quarters, facts.side);
+                let (row, column) = rotated_back(place, 4 - quarters, facts.side);
                 code << 1 | bits >> (num_bits - 1 - (row * facts.side + column)) & 1
             })
         });
@@ -235,7 +235,7 @@ mod tests {
     fn bits(dictionary: MarkerDictionary, id: usize, quarters: usize) -> u64 {
         let side = dictionary.num_bits();
         (0..side * side).fold(0, |bits, k| {
-            let (row, column) = turned_back((k / side, k % side), quarters, side);
+            let (row, column) = rotated_back((k / side, k % side), quarters, side);
             bits << 1 | u64::from(dictionary.is_white(id, row, column).unwrap())
         })
     }
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn markers_are_read_in_every_turn() {
+    fn markers_are_read_in_every_rotation() {
         for dictionary in MarkerDictionary::ALL {
             for id in (0..dictionary.num_markers()).step_by(7) {
                 for quarters in 0..4 {

@@ -12,7 +12,7 @@ const STEP_PX: f64 = 0.5;
 /// Minimum difference of bright and dark across an edge, of a range of 1.
 const LEAST_CONTRAST: f64 = 0.05;
 /// Minimum fraction of a side with a visible edge.
-const LEAST_SEEN: f64 = 0.6;
+const LEAST_VISIBLE: f64 = 0.6;
 /// Maximum distance of edge points from the line, in multiples of the median.
 const FAR: f64 = 3.0;
 
@@ -62,11 +62,11 @@ fn fit_side(image: &GrayImage32, [a, b]: [Point2<f64>; 2], reach_px: f64) -> Opt
     let count = (length as usize).clamp(POINTS.start, POINTS.end);
     let points: Vec<Point2<f64>> = (0..count)
         .filter_map(|k| {
-            let share = ENDS + (1.0 - 2.0 * ENDS) * (k as f64 + 0.5) / count as f64;
-            edge_point(image, &(a + side * share), &outward, reach_px)
+            let fraction = ENDS + (1.0 - 2.0 * ENDS) * (k as f64 + 0.5) / count as f64;
+            edge_point(image, &(a + side * fraction), &outward, reach_px)
         })
         .collect();
-    if (points.len() as f64) < LEAST_SEEN * count as f64 {
+    if (points.len() as f64) < LEAST_VISIBLE * count as f64 {
         return None;
     }
     let line = fit_line(&points)?;

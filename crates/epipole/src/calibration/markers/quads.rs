@@ -45,8 +45,8 @@ pub(super) fn find_quads(
     let mut rows: Vec<[usize; 2]> = Vec::new();
     for start in 0..is_dark.len() {
         if start % width == 0 {
-            let share = 0.3 + 0.7 * start as f32 / is_dark.len() as f32;
-            report(monitor, stage, share)?;
+            let fraction = 0.3 + 0.7 * start as f32 / is_dark.len() as f32;
+            report(monitor, stage, fraction)?;
         }
         if !core::mem::take(&mut is_dark[start]) {
             continue;
@@ -177,7 +177,7 @@ mod tests {
     };
 
     /// A dark quadrilateral on a bright background.
-    fn drawn(corners: [[f64; 2]; 4]) -> GrayImage32 {
+    fn draw_quad(corners: [[f64; 2]; 4]) -> GrayImage32 {
         let corners = corners.map(Point2::from);
         GrayImage32::from_fn(100, 90, |u, v| {
             let p = Point2::new(f64::from(u), f64::from(v));
@@ -190,7 +190,7 @@ mod tests {
     #[test]
     fn a_slanted_square_is_found() {
         let corners = [[30.0, 20.0], [65.0, 28.0], [58.0, 66.0], [22.0, 55.0]];
-        let found = find_quads(&drawn(corners), SIDES, &mut ()).unwrap();
+        let found = find_quads(&draw_quad(corners), SIDES, &mut ()).unwrap();
         assert_eq!(found.len(), 1);
         let first = (0..4)
             .min_by(|&a, &b| found[0][a].y.total_cmp(&found[0][b].y))
@@ -203,8 +203,8 @@ mod tests {
 
     #[test]
     fn other_shapes_are_none() {
-        let thin = drawn([[10.0, 40.0], [90.0, 40.0], [90.0, 44.0], [10.0, 44.0]]);
-        let at_border = drawn([[-5.0, 10.0], [30.0, 10.0], [30.0, 45.0], [-5.0, 45.0]]);
+        let thin = draw_quad([[10.0, 40.0], [90.0, 40.0], [90.0, 44.0], [10.0, 44.0]]);
+        let at_border = draw_quad([[-5.0, 10.0], [30.0, 10.0], [30.0, 45.0], [-5.0, 45.0]]);
         let disk = GrayImage32::from_fn(100, 90, |u, v| {
             let (x, y) = (f64::from(u) - 50.0, f64::from(v) - 45.0);
             Luma([if x * x + y * y < 400.0 { 0.1 } else { 0.8 }])

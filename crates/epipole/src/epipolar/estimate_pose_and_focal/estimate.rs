@@ -44,7 +44,7 @@ impl FocalEstimator {
         let mut inliers = Vec::new();
         self.inliers(model, max_error_px, &mut inliers);
         let near = self.in_frame.weighted(&inliers, &vec![1.0; inliers.len()]);
-        let share = relative_focal_deviation(
+        let deviation = relative_focal_deviation(
             &near,
             inliers.len(),
             &self.centers_in_frame,
@@ -52,7 +52,7 @@ impl FocalEstimator {
         )?;
         let profile = FocalProfile::new(self, model, max_error_px, &mut Random::new(0));
         let elsewhere = profile.map_or(0.0, |profile| profile.relative_deviation(model));
-        Some(share.max(elsewhere) * model.focal_px)
+        Some(deviation.max(elsewhere) * model.focal_px)
     }
 }
 
@@ -198,8 +198,8 @@ pub fn estimate_relative_pose_and_focal(
     let [k1, k2] = [principal1, principal2].map(|c| Intrinsics::new(focal_px, focal_px, c.x, c.y));
     let (k1, k2) = (k1?, k2?);
     let inliers_of = |pixels: &[Point2<f64>]| -> Vec<Point2<f64>> {
-        let kept = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
-        kept.map(|(pixel, _)| *pixel).collect()
+        let inliers = pixels.iter().zip(&report.inliers).filter(|(_, is)| **is);
+        inliers.map(|(pixel, _)| *pixel).collect()
     };
     let (inliers1, inliers2) = (inliers_of(pixels1), inliers_of(pixels2));
     let motions = decompose_essential(&report.model.pose.essential())?;

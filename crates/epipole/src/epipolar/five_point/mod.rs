@@ -63,7 +63,7 @@ pub fn essential_5point(
 /// The solver sets the coefficient of the last basis vector to 1 and finds roots of a polynomial in
 /// that of the third. Special rays, such as those of a camera that moved along its rows, have
 /// solutions whose last coefficient is 0.
-fn mirrored(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
+fn mirror_basis(basis: &[[f64; 9]; 4]) -> [[f64; 9]; 4] {
     // Of length 1; no entry is the sum or difference of others.
     const NORMAL: [f64; 4] = [0.36, -0.48, 0.64, 0.48];
     let mut mirrored = *basis;
@@ -142,7 +142,7 @@ pub(crate) fn solve(
             return solutions.count;
         }
     }
-    in_another_basis(&mirrored(&basis), &mut solutions);
+    in_another_basis(&mirror_basis(&basis), &mut solutions);
     solutions.count
 }
 
@@ -272,9 +272,12 @@ pub(crate) mod tests {
             for _ in 0..100 {
                 let (x, y) = (random.uniform(-reach, reach), random.uniform(-reach, reach));
                 let ray = Vector3::new(x, y, 1.0).normalize();
-                let seen = motion * Point3::from(ray * random.uniform(0.1, 10.0));
-                if seen.z > 0.0 && seen.x.abs() < reach * seen.z && seen.y.abs() < reach * seen.z {
-                    (r1[count], r2[count]) = (ray, seen.coords.normalize());
+                let in_cam2 = motion * Point3::from(ray * random.uniform(0.1, 10.0));
+                if in_cam2.z > 0.0
+                    && in_cam2.x.abs() < reach * in_cam2.z
+                    && in_cam2.y.abs() < reach * in_cam2.z
+                {
+                    (r1[count], r2[count]) = (ray, in_cam2.coords.normalize());
                     count += 1;
                     if count == N {
                         return (motion, r1, r2);
@@ -459,11 +462,11 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_turn_is_found_though_it_has_no_direction() {
+    fn a_rotation_is_found_though_it_has_no_direction() {
         let mut random = Random::new(4);
         for angle in [0.0, 0.3] {
-            let turn = RigidTransform::rotation(Vector3::new(0.1, 1.0, -0.2) * angle);
-            let rotation = turn.rotation.to_rotation_matrix().into_inner();
+            let motion = RigidTransform::rotation(Vector3::new(0.1, 1.0, -0.2) * angle);
+            let rotation = motion.rotation.to_rotation_matrix().into_inner();
             let mut found = 0;
             for _ in 0..200 {
                 let mut draw = || random.uniform(-0.5, 0.5);
@@ -472,11 +475,11 @@ pub(crate) mod tests {
                 let rays2 = rays1.map(|ray| rotation * ray);
                 let solutions = essential_5point(&rays1, &rays2);
                 assert!(solutions.iter().all(|e| missing(e) < 1e-8));
-                let is_turn = |e: &Matrix3<f64>| {
+                let is_rotation = |e: &Matrix3<f64>| {
                     pose_in_front(e, &rays1, &rays2)
                         .is_some_and(|(r, _)| (r - rotation).norm() < 1e-6)
                 };
-                found += usize::from(solutions.iter().any(is_turn));
+                found += usize::from(solutions.iter().any(is_rotation));
             }
             assert!(found >= 190, "{found} of 200");
         }

@@ -205,12 +205,13 @@ mod tests {
         p2: [Point2<f64>; 6],
     }
 
-    fn problem(random: &mut Random, turn_rad: f64) -> Problem {
+    fn problem(random: &mut Random, angle_rad: f64) -> Problem {
         let f = 640.0 * libm::exp(random.uniform(-0.7, 1.2));
         let k = Intrinsics::new(f, f, 322.0, 236.0).unwrap();
-        let turn = Vector3::from_fn(|_, _| turn_rad * random.normal());
+        let rotation_vector = Vector3::from_fn(|_, _| angle_rad * random.normal());
         let t = Vector3::from_fn(|_, _| random.normal()).normalize();
-        let motion = RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(turn));
+        let motion =
+            RigidTransform::from_parts(t.into(), UnitQuaternion::from_scaled_axis(rotation_vector));
         let (mut p1, mut p2) = (Vec::new(), Vec::new());
         for tries in 0.. {
             if p1.len() == 6 {
@@ -218,7 +219,7 @@ mod tests {
             }
             // Two cameras with no overlap.
             if tries == 200 {
-                return problem(random, turn_rad);
+                return problem(random, angle_rad);
             }
             let p = Point2::new(random.uniform(0.0, 640.0), random.uniform(0.0, 480.0));
             let x = Point3::from(k.ray(&p) * random.uniform(2.0, 10.0));

@@ -45,12 +45,12 @@ pub(super) fn search(
     if let (Some(a), Some(b)) = (whole_bytes(first), whole_bytes(second)) {
         let second = Integers::new(&b, n);
         let scan = |rows: &Range<usize>| dots::scan(&second, &a[rows.start * n..rows.end * n]);
-        return gather([first.len(), b.len() / n, n], scan, monitor);
+        return collect_block([first.len(), b.len() / n, n], scan, monitor);
     }
     let a = first.to_floats();
     let second = Floats::new(second.to_floats(), n);
     let scan = |rows: &Range<usize>| second.scan(&a[rows.start * n..rows.end * n]);
-    gather([first.len(), second.count(), n], scan, monitor)
+    collect_block([first.len(), second.count(), n], scan, monitor)
 }
 
 /// Type of a squared distance.
@@ -64,7 +64,7 @@ impl Distance for f32 {
     const FARTHEST: Self = f32::INFINITY;
 }
 
-fn gather<D: Distance>(
+fn collect_block<D: Distance>(
     [num_rows, num_columns, dimension]: [usize; 3],
     scan: impl Fn(&Range<usize>) -> Scanned<D> + Sync + Send,
     monitor: &mut dyn Monitor,

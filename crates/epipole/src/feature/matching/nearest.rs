@@ -25,8 +25,8 @@ use crate::{Error, Result};
 /// use epipole::feature::{Descriptors, nearest_two};
 /// let first = Descriptors::from_bytes(2, vec![0, 0])?;
 /// let second = Descriptors::from_bytes(2, vec![30, 40, 6, 8])?;
-/// let near = nearest_two(&first, &second, &mut ())?[0];
-/// assert_eq!((near.index, near.distance, near.second_distance), (1, 10.0, Some(50.0)));
+/// let found = nearest_two(&first, &second, &mut ())?[0];
+/// assert_eq!((found.index, found.distance, found.second_distance), (1, 10.0, Some(50.0)));
 /// # Ok(()) }
 /// ```
 pub fn nearest_two(
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn each_option_does_what_it_says() {
+    fn each_option_has_its_effect() {
         let a = Descriptors::from_bytes(1, vec![10, 12, 100]).unwrap();
         let b = Descriptors::from_bytes(1, vec![11, 103, 200]).unwrap();
         let none = MatchOptions {
@@ -292,8 +292,8 @@ mod tests {
                     .is_empty()
             );
         }
-        let lone = match_descriptors(&one, &one, &options, &mut ()).unwrap();
-        assert_eq!((lone.len(), lone[0].ratio), (1, 0.0));
+        let single = match_descriptors(&one, &one, &options, &mut ()).unwrap();
+        assert_eq!((single.len(), single[0].ratio), (1, 0.0));
         let other = Descriptors::from_bytes(2, vec![1, 2]).unwrap();
         assert_eq!(
             match_descriptors(&one, &other, &options, &mut ()),

@@ -63,7 +63,10 @@ pub(super) fn corners(
         let last = found.select_nth_unstable_by(limit - 1, strength).1.response;
         found.retain(|corner| corner.response.total_cmp(&last).is_ge());
     }
-    let mut found: Vec<Keypoint> = found.iter().map(|corner| refined(image, corner)).collect();
+    let mut found: Vec<Keypoint> = found
+        .iter()
+        .map(|corner| refine_corner(image, corner))
+        .collect();
     strongest_first(&mut found);
     found.truncate(limit);
     Ok(found)
@@ -77,7 +80,7 @@ struct Corner {
 }
 
 /// Refines the corner to the peak of the scores around it.
-fn refined(image: &GrayImage, corner: &Corner) -> Keypoint {
+fn refine_corner(image: &GrayImage, corner: &Corner) -> Keypoint {
     let width = image.width() as isize;
     let offsets = CIRCLE.map(|(x, y)| y * width + x);
     let center = corner.y as isize * width + corner.x as isize;

@@ -92,8 +92,8 @@ pub fn detect_orb(
     let shrink = 1.0 / options.scale_factor;
     let total: f64 = levels.iter().map(|&k| power(shrink, k)).sum();
     let describe = |k: usize, reporter: &mut Reporter| {
-        let share = options.max_features as f64 * power(shrink, k) / total;
-        let quota = (share.ceil() as usize).min(options.max_features);
+        let target = options.max_features as f64 * power(shrink, k) / total;
+        let quota = (target.ceil() as usize).min(options.max_features);
         let pattern = &pattern;
         describe_level(image, options, pattern, (k, quota), reporter)
     };
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_and_scaled_scene_is_matched() {
+    fn a_rotated_and_scaled_scene_is_matched() {
         let image = scene(320, 240);
         let (cos, sin) = (libm::cos(0.6) * 0.8, libm::sin(0.6) * 0.8);
         let map = Matrix2x3::new(cos, -sin, 120.0, sin, cos, -30.0);
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn half_a_turn_turns_the_keypoints() {
+    fn a_half_turn_rotates_the_keypoints() {
         let image = scene(201, 151);
         let a = detect_orb(&image, &OrbOptions::default(), &mut ()).unwrap();
         let b = detect_orb(

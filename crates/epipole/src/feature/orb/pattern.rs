@@ -51,7 +51,7 @@ impl Pattern {
         let center = y as isize * width + x as isize;
         let (sin, cos) = (libm::sinf(angle_rad), libm::cosf(angle_rad));
         let mut offsets = [0i32; PLACES];
-        turned(self, sin, cos, width as i32, &mut offsets);
+        rotated(self, sin, cos, width as i32, &mut offsets);
         let value = |k: usize| image.as_raw()[(center + offsets[k] as isize) as usize];
         let mut bits = [0u64; 4];
         for k in 0..PLACES / 2 {
@@ -64,7 +64,7 @@ impl Pattern {
 dispatched! {
     /// Computes the pixel offsets of the rotated pattern from the keypoint, for an image of some
     /// width.
-    fn turned(pattern: &Pattern, sin: f32, cos: f32, width: i32, offsets: &mut [i32; PLACES]) {
+    fn rotated(pattern: &Pattern, sin: f32, cos: f32, width: i32, offsets: &mut [i32; PLACES]) {
         for k in 0..PLACES {
             let (a, b) = (pattern.u[k], pattern.v[k]);
             let u = nearest(a * cos - b * sin);

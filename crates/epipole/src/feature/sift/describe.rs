@@ -179,8 +179,8 @@ fn at_layers(
     while let Some(grid) = next.filter(|_| waiting.peek().is_some()) {
         let mut octave = Octave::new(grid, memory, options);
         // Computing blurs does not advance the progress, which counts keypoints.
-        let share = visited as f32 / count;
-        let blur = &mut Part::new(monitor, share, share).of_stage(stage);
+        let fraction = visited as f32 / count;
+        let blur = &mut Part::new(monitor, fraction, fraction).of_stage(stage);
         octave.advance_to(1, blur)?;
         next = octave.next_grid(blur)?;
         let (number, is_last) = (octave.grid().octave, next.is_none());
@@ -189,9 +189,9 @@ fn at_layers(
             // Octaves beyond the last have larger blurs than any of its layers.
             let largest = options.layers_per_octave + 1;
             let layer = if of > number { largest } else { layer };
-            let share = visited as f32 / count;
-            report(monitor, stage, share)?;
-            let blur = &mut Part::new(monitor, share, share).of_stage(stage);
+            let fraction = visited as f32 / count;
+            report(monitor, stage, fraction)?;
+            let blur = &mut Part::new(monitor, fraction, fraction).of_stage(stage);
             octave.advance_to(layer.max(3) - 2, blur)?;
             let (grid, keypoint) = (octave.grid(), &keypoints[index]);
             let x = ((keypoint.u - grid.origin_u) / grid.step) as f32;

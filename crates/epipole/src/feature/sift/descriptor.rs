@@ -37,7 +37,7 @@ pub(super) fn histogram(
     let half = 0.5 * (CELLS as f32 + 1.0);
     let radius = half * cell * std::f32::consts::SQRT_2;
     let falloff = -0.5 / (0.5 * CELLS as f32 * cell * 0.5 * CELLS as f32 * cell);
-    scratch.gather(layer, center, radius, |dy| {
+    scratch.collect(layer, center, radius, |dy| {
         // −half < x cos + y sin < half and −half < y cos − x sin < half, solved for x.
         let (mut low, mut high) = (-radius, radius);
         for (slope, offset) in [(cos, dy * sin), (-sin, dy * cos)] {
@@ -125,7 +125,7 @@ pub(super) struct Samples {
 impl Samples {
     /// Collects the samples of each row whose offset along u lies in the interval for the row's
     /// offset along v. Samples on the layer's border have no gradient and are left out.
-    pub(super) fn gather(
+    pub(super) fn collect(
         &mut self,
         layer: &GrayImage32,
         (cx, cy): (f32, f32),
@@ -177,19 +177,19 @@ impl Samples {
         }
         self.cell.resize(n, 0);
         self.bin.resize(n, 0);
-        let shares = [&mut self.right[..], &mut self.down];
-        place(&self.dx, &self.dy, cos, sin, &mut self.cell, shares);
-        turn(&self.angle, angle_rad, &mut self.bin, &mut self.ahead);
+        let fractions = [&mut self.right[..], &mut self.down];
+        place(&self.dx, &self.dy, cos, sin, &mut self.cell, fractions);
+        orientation_bins(&self.angle, angle_rad, &mut self.bin, &mut self.ahead);
     }
 
     fn scatter(&self, sums: &mut [f32; NUM_SUMS]) {
         let n = self.dx.len();
-        let shares = [&self.right[..n], &self.down[..n], &self.ahead[..n]];
+        let fractions = [&self.right[..n], &self.down[..n], &self.ahead[..n]];
         scatter(
             &self.weight[..n],
             &self.cell[..n],
             &self.bin[..n],
-            shares,
+            fractions,
             sums,
         );
     }
@@ -236,10 +236,10 @@ dispatched! {
 }
 dispatched! {
     fn place(
-        dx: &[f32], dy: &[f32], cos: f32, sin: f32, cell: &mut [u32], shares: [&mut [f32]; 2],
+        dx: &[f32], dy: &[f32], cos: f32, sin: f32, cell: &mut [u32], fractions: [&mut [f32]; 2],
     ) {
         let n = dx.len();
-        let [right, down] = shares;
+        let [right, down] = fractions;
         let (dy, cell) = (&dy[..n], &mut cell[..n]);
         let (right, down) = (&mut right[..n], &mut down[..n]);
         // The middle of the four cells is between the second and the third, plus one cell of
@@ -257,23 +257,23 @@ dispatched! {
     }
 }
 dispatched! {
-    fn turn(angle: &[f32], from: f32, bin: &mut [u32], ahead: &mut [f32]) {
+    fn orientation_bins(angle: &[f32], from: f32, bin: &mut [u32], ahead: &mut [f32]) {
         let n = angle.len();
         let (bin, ahead) = (&mut bin[..n], &mut ahead[..n]);
         for k in 0..n {
-            let turned = (angle[k] - from) * (BINS as f32 / TAU);
-            let turned = if turned < 0.0 { turned + BINS as f32 } else { turned };
-            (bin[k], ahead[k]) = whole_and_rest(turned);
+            let position = (angle[k] - from) * (BINS as f32 / TAU);
+            let position = if position < 0.0 { position + BINS as f32 } else { position };
+            (bin[k], ahead[k]) = whole_and_rest(position);
         }
     }
 }
 dispatched! {
     /// Adds each sample to its four cells: all directions of a cell at once, most of them with 0.
     fn scatter(
-        weight: &[f32], cell: &[u32], bin: &[u32], shares: [&[f32]; 3], sums: &mut [f32; NUM_SUMS],
+        weight: &[f32], cell: &[u32], bin: &[u32], fractions: [&[f32]; 3], sums: &mut [f32; NUM_SUMS],
     ) {
         let n = weight.len();
-        let [right, down, ahead] = shares;
+        let [right, down, ahead] = fractions;
         let (cell, bin) = (&cell[..n], &bin[..n]);
         let (right, down, ahead) = (&right[..n], &down[..n], &ahead[..n]);
         for k in 0..n {

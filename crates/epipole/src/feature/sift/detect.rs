@@ -58,7 +58,7 @@ pub fn detect_sift(
     let mut found: Vec<(Keypoint, [u8; 128])> = Vec::new();
     let mut strongest = Strongest::new(options.max_features);
     // Each octave has a quarter of the previous one's pixels.
-    let (mut done, mut share) = (0.0, 0.75 / options.layers_per_octave as f64);
+    let (mut done, mut fraction) = (0.0, 0.75 / options.layers_per_octave as f64);
     let first = &mut Part::new(monitor, 0.0, 0.0).of_stage(stage);
     let mut next = OctaveGrid::first(image, options, first)?;
     let mut memory = Default::default();
@@ -66,7 +66,7 @@ pub fn detect_sift(
         let mut octave = Octave::new(grid, memory, options);
         next = None;
         for layer in 1..=options.layers_per_octave {
-            let at = |part: f64| (done + share * part).min(1.0) as f32;
+            let at = |part: f64| (done + fraction * part).min(1.0) as f32;
             let blur = &mut Part::new(monitor, at(0.0), at(0.3)).of_stage(stage);
             octave.advance_to(layer, blur)?;
             if layer == 1 {
@@ -84,10 +84,10 @@ pub fn detect_sift(
                 });
                 found.extend(described.into_iter().flatten());
             }
-            done += share;
+            done += fraction;
             progress::report(monitor, stage, done.min(1.0) as f32)?;
         }
-        share /= 4.0;
+        fraction /= 4.0;
         memory = octave.into_memory();
     }
     Ok(collect(&found, options.max_features))

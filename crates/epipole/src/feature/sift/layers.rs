@@ -80,12 +80,12 @@ pub fn scale_space(
         let mut blurred: Vec<GrayImage32> = Vec::new();
         let mut differences = Vec::new();
         for k in 0..=last {
-            let shares = [0.0, 0.7, 1.0].map(|part| at(k as f32 + part));
-            let blur = &mut Part::new(monitor, shares[0], shares[1]).of_stage(stage);
+            let fractions = [0.0, 0.7, 1.0].map(|part| at(k as f32 + part));
+            let blur = &mut Part::new(monitor, fractions[0], fractions[1]).of_stage(stage);
             octave.advance_to(k.max(3) - 2, blur)?;
             blurred.push(octave.layer(k).clone());
             if let [.., less, more] = blurred.as_slice() {
-                let part = &mut Part::new(monitor, shares[1], shares[2]);
+                let part = &mut Part::new(monitor, fractions[1], fractions[2]);
                 differences.push(difference(more, less, part)?);
             }
         }

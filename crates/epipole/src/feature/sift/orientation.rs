@@ -35,7 +35,7 @@ pub(super) fn histogram(
     let spread = 1.5 * sigma;
     let radius = 3.0 * spread;
     let falloff = -0.5 / (spread * spread);
-    scratch.gather(layer, center, radius, |dy| {
+    scratch.collect(layer, center, radius, |dy| {
         let half = (radius * radius - dy * dy).max(0.0).sqrt();
         (-half, half)
     });
@@ -43,9 +43,9 @@ pub(super) fn histogram(
     for (angle, weight) in scratch.angle.iter().zip(&scratch.weight) {
         let bin = angle * (NUM_BINS as f32 / TAU) + 0.5 * NUM_BINS as f32;
         let low = (bin as usize).min(NUM_BINS - 1);
-        let share = (bin - low as f32) * weight;
-        histogram[low] += weight - share;
-        histogram[low + 1] += share;
+        let upper = (bin - low as f32) * weight;
+        histogram[low] += weight - upper;
+        histogram[low + 1] += upper;
     }
     // Bin 36 equals bin 0: both are at an angle of ±π.
     histogram[0] += histogram[NUM_BINS];

@@ -49,7 +49,7 @@ impl OctaveGrid {
         let blur_to = |from: f64| (options.sigma_px * options.sigma_px - from * from).sqrt();
         let (unblurred, blur, step, octave);
         if options.upsample {
-            unblurred = doubled(image, &mut Part::new(monitor, 0.0, 0.5))?;
+            unblurred = double_size(image, &mut Part::new(monitor, 0.0, 0.5))?;
             blur = blur_to(2.0 * options.input_blur_px);
             (step, octave) = (0.5, -1);
         } else {
@@ -61,7 +61,7 @@ impl OctaveGrid {
         // The assumed blur may already be the required one.
         if blur > 0.01 {
             let part = &mut Part::new(monitor, 0.5, 1.0);
-            blurred(&unblurred, blur, &mut base, part)?;
+            blur_layer(&unblurred, blur, &mut base, part)?;
         } else {
             base = unblurred;
         }
@@ -136,7 +136,7 @@ impl Octave {
             let to = (self.newest + 1) % 4;
             let mut target = std::mem::take(&mut self.layers[to]);
             let blur = self.increments[self.newest];
-            blurred(&self.layers[from], blur, &mut target, part)?;
+            blur_layer(&self.layers[from], blur, &mut target, part)?;
             self.layers[to] = target;
             self.newest += 1;
         }
@@ -171,7 +171,7 @@ impl Octave {
             };
             let [start, end] = [k, k + 1].map(|k| (k - self.newest) as f32 / (n + 1) as f32);
             let part = &mut Part::new(monitor, start, end);
-            blurred(from, self.increments[k], &mut target, part)?;
+            blur_layer(from, self.increments[k], &mut target, part)?;
             further = target;
         }
         let source = if n <= self.newest {
@@ -185,7 +185,7 @@ impl Octave {
             origin_u: self.grid.origin_u + shift(source.width()) * self.grid.step,
             origin_v: self.grid.origin_v + shift(source.height()) * self.grid.step,
             octave: self.grid.octave + 1,
-            base: halved(
+            base: halve_size(
                 source,
                 &mut Part::new(monitor, n as f32 / (n + 1) as f32, 1.0),
             )?,
@@ -195,7 +195,7 @@ impl Octave {
 }
 
 /// Blurs into an image whose memory is reused.
-fn blurred(
+fn blur_layer(
     image: &GrayImage32,
     sigma: f64,
     target: &mut GrayImage32,
@@ -208,7 +208,7 @@ fn blurred(
 }
 
 /// Doubles the samples, less one, along each axis; the new ones are means of their neighbors.
-fn doubled(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
+fn double_size(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
     let source = |v: usize| &image.as_raw()[v * w..(v + 1) * w];
     let size = [2 * w - 1, 2 * h - 1];
@@ -230,7 +230,7 @@ fn doubled(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32
 }
 
 /// Halves the samples along each axis, symmetrically.
-fn halved(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
+fn halve_size(image: &GrayImage32, monitor: &mut dyn Monitor) -> Result<GrayImage32> {
     let (w, h) = (image.width() as usize, image.height() as usize);
     // The cubic through four samples, halfway between the middle two.
     let middle = |a: f32, b: f32, c: f32, d: f32| 0.5625 * (b + c) - 0.0625 * (a + d);

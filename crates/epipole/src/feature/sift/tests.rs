@@ -45,7 +45,7 @@ fn partners(a: &[Keypoint], b: &[Keypoint], map: impl Fn(f64, f64) -> (f64, f64)
 }
 
 #[test]
-fn mirrored_and_turned_images_give_mirrored_and_turned_keypoints() {
+fn mirrored_and_rotated_images_give_mirrored_and_rotated_keypoints() {
     for (width, height) in [(160, 120), (161, 119), (150, 131)] {
         let image = blobs(width, height);
         let (right, bottom) = (f64::from(width) - 1.0, f64::from(height) - 1.0);
@@ -59,13 +59,13 @@ fn mirrored_and_turned_images_give_mirrored_and_turned_keypoints() {
             let here = detect(&image);
             assert!(here.len() > 20, "{}", here.len());
             let mirrored = detect(&image::imageops::flip_horizontal(&image));
-            let turned = detect(&image::imageops::rotate180(&image));
+            let rotated = detect(&image::imageops::rotate180(&image));
             assert_eq!(here.len(), mirrored.len());
-            assert_eq!(here.len(), turned.len());
+            assert_eq!(here.len(), rotated.len());
             let mirror = |u, v| (right - u, v);
             assert_eq!(partners(&here, &mirrored, mirror, 0.02), 1.0);
-            let turn = |u, v| (right - u, bottom - v);
-            assert_eq!(partners(&here, &turned, turn, 0.02), 1.0);
+            let rotate = |u, v| (right - u, bottom - v);
+            assert_eq!(partners(&here, &rotated, rotate, 0.02), 1.0);
         }
     }
 }
@@ -206,15 +206,15 @@ fn bad_pixels_and_options_are_refused() {
 #[test]
 fn progress_rises_and_can_stop_the_work() {
     let image = blobs(160, 120);
-    let mut shares = Vec::new();
+    let mut fractions = Vec::new();
     let all = detect_sift(&image, &SiftOptions::default(), &mut |status: Status| {
         assert_eq!(status.stage, Stage::FeatureDetection);
-        shares.push(status.share);
+        fractions.push(status.fraction);
         ControlFlow::Continue(())
     });
     // Five octaves have five blurs each, and three layers that are described.
-    assert!(shares.len() > 5 * (5 + 3), "{}", shares.len());
-    assert!(shares.is_sorted() && shares.iter().all(|s| *s <= 1.0));
+    assert!(fractions.len() > 5 * (5 + 3), "{}", fractions.len());
+    assert!(fractions.is_sorted() && fractions.iter().all(|s| *s <= 1.0));
     assert_eq!(
         all.unwrap(),
         detect_sift(&image, &SiftOptions::default(), &mut ()).unwrap()
@@ -257,17 +257,17 @@ fn keypoints_equal_those_of_opencv_where_both_find_them() {
             (du * du + dv * dv).sqrt() < 0.3 && (o.scale_px / k[2] - 1.0).abs() < 0.1
         })
     });
-    let share = found.count() as f64 / expected.shape[0] as f64;
+    let fraction = found.count() as f64 / expected.shape[0] as f64;
     assert!(
-        share > 0.9,
-        "{share} of {} (ours: {})",
+        fraction > 0.9,
+        "{fraction} of {} (ours: {})",
         expected.shape[0],
         ours.len()
     );
 }
 
 /// An image with much detail.
-fn photograph() -> Option<GrayImage32> {
+fn photo() -> Option<GrayImage32> {
     let path = fixture::data("homography/graf/img1.png")?;
     let bytes = std::fs::read(path).unwrap();
     let options = epipole_io::photo::DecodeOptions::default();
@@ -304,7 +304,7 @@ fn best_overlaps(keypoints: &[Keypoint], others: &[Keypoint]) -> Vec<(f64, usize
     keypoints.iter().map(best).collect()
 }
 
-fn share(part: usize, whole: usize) -> f64 {
+fn fraction(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
 
@@ -314,7 +314,7 @@ fn share(part: usize, whole: usize) -> f64 {
 #[test]
 fn keypoints_and_descriptors_survive_rotation() {
     use crate::imaging::{Interpolation, WarpOptions, warp_affine};
-    let Some(image) = photograph() else { return };
+    let Some(image) = photo() else { return };
     let options = SiftOptions::default();
     let (c, radius) = (179.5, 150.0);
     let detect = |image: &GrayImage32| {
@@ -327,16 +327,16 @@ fn keypoints_and_descriptors_survive_rotation() {
             .collect();
         let bytes = features.descriptors.as_bytes().unwrap().chunks_exact(128);
         let bytes: Vec<&[u8]> = bytes.collect();
-        let kept = inside.iter().flat_map(|&k| bytes[k]).copied().collect();
-        let descriptors = Descriptors::from_bytes(128, kept).unwrap();
+        let inner_bytes = inside.iter().flat_map(|&k| bytes[k]).copied().collect();
+        let descriptors = Descriptors::from_bytes(128, inner_bytes).unwrap();
         features.keypoints = inside.iter().map(|&k| features.keypoints[k]).collect();
         features.descriptors = descriptors;
         features
     };
     let here = detect(&image);
     for degrees in (15..360).step_by(15) {
-        let turn = f64::from(degrees).to_radians();
-        let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+        let angle_rad = f64::from(degrees).to_radians();
+        let (sin, cos) = (libm::sin(angle_rad), libm::cos(angle_rad));
         #[rustfmt::skip]
         let map = nalgebra::Matrix2x3::new(
             cos, -sin, c - cos * c + sin * c,
@@ -368,7 +368,7 @@ fn keypoints_and_descriptors_survive_rotation() {
             }
             found += 1;
             let q = &there.keypoints[other];
-            let difference = f64::from(q.angle_rad - moved[k].angle_rad) - turn;
+            let difference = f64::from(q.angle_rad - moved[k].angle_rad) - angle_rad;
             let difference = difference.rem_euclid(std::f64::consts::TAU);
             if difference.min(std::f64::consts::TAU - difference) < 15f64.to_radians() {
                 angles += 1;
@@ -376,15 +376,15 @@ fn keypoints_and_descriptors_survive_rotation() {
                 descriptors += usize::from(overlap(&moved[k], nearest) >= 0.5);
             }
         }
-        let shares = [
-            share(found, moved.len()),
-            share(angles, found),
-            share(descriptors, angles),
+        let fractions = [
+            fraction(found, moved.len()),
+            fraction(angles, found),
+            fraction(descriptors, angles),
         ];
-        println!("{degrees}°: found, angles, descriptors {shares:.3?}");
+        println!("{degrees}°: found, angles, descriptors {fractions:.3?}");
         assert!(
-            shares[0] >= 0.45 && shares[1] >= 0.70 && shares[2] >= 0.98,
-            "{shares:?}"
+            fractions[0] >= 0.45 && fractions[1] >= 0.70 && fractions[2] >= 0.98,
+            "{fractions:?}"
         );
     }
 }
@@ -392,7 +392,7 @@ fn keypoints_and_descriptors_survive_rotation() {
 /// Likewise for smaller images: repeated keypoints, sizes within 4/5, descriptors.
 #[test]
 fn keypoints_and_descriptors_survive_scaling() {
-    let Some(image) = photograph() else { return };
+    let Some(image) = photo() else { return };
     let options = SiftOptions::default();
     let here = detect_sift(&image, &options, &mut ()).unwrap();
     for scale in [1.5, 2.0, 2.5] {
@@ -425,15 +425,15 @@ fn keypoints_and_descriptors_survive_scaling() {
             let nearest = &here.keypoints[near[k].index];
             descriptors += usize::from(overlap(&grown[k], nearest) >= 0.5);
         }
-        let shares = [
-            share(found, grown.len()),
-            share(sizes, found),
-            share(descriptors, found),
+        let fractions = [
+            fraction(found, grown.len()),
+            fraction(sizes, found),
+            fraction(descriptors, found),
         ];
-        println!("1/{scale}: found, sizes, descriptors {shares:.3?}");
+        println!("1/{scale}: found, sizes, descriptors {fractions:.3?}");
         assert!(
-            shares[0] >= 0.69 && shares[1] >= 0.98 && shares[2] >= 0.78,
-            "{shares:?}"
+            fractions[0] >= 0.69 && fractions[1] >= 0.98 && fractions[2] >= 0.78,
+            "{fractions:?}"
         );
     }
 }

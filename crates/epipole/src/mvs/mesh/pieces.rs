@@ -17,7 +17,7 @@ pub(super) fn without_small(mesh: &Mesh, min_triangles: usize) -> Mesh {
     for &[a, ..] in &mesh.triangles {
         counts[root(&mut parents, a) as usize] += 1;
     }
-    let mut kept = Mesh::default();
+    let mut large = Mesh::default();
     let mut places: Vec<Option<u32>> = vec![None; parents.len()];
     for triangle in &mesh.triangles {
         if counts[root(&mut parents, triangle[0]) as usize] < min_triangles {
@@ -25,11 +25,11 @@ pub(super) fn without_small(mesh: &Mesh, min_triangles: usize) -> Mesh {
         }
         let triangle = triangle.map(|vertex| {
             *places[vertex as usize]
-                .get_or_insert_with(|| push(&mut kept.vertices, &mesh.vertices, vertex as usize))
+                .get_or_insert_with(|| push(&mut large.vertices, &mesh.vertices, vertex as usize))
         });
-        kept.triangles.push(triangle);
+        large.triangles.push(triangle);
     }
-    kept
+    large
 }
 
 /// Appends a vertex of another cloud. Returns its index.
@@ -69,9 +69,9 @@ mod tests {
             vertices,
             triangles: vec![[0, 1, 2], [7, 6, 5], [5, 4, 7]],
         };
-        let kept = without_small(&mesh, 2);
-        assert_eq!(kept.triangles, [[0, 1, 2], [2, 3, 0]]);
-        let colors: Vec<u8> = kept.vertices.colors.iter().map(|color| color[0]).collect();
+        let large = without_small(&mesh, 2);
+        assert_eq!(large.triangles, [[0, 1, 2], [2, 3, 0]]);
+        let colors: Vec<u8> = large.vertices.colors.iter().map(|color| color[0]).collect();
         assert_eq!(colors, [7, 6, 5, 4]);
         assert_eq!(without_small(&mesh, 3), Mesh::default());
         assert_eq!(without_small(&mesh, 1).vertices.points.len(), 7);

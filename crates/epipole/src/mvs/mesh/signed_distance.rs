@@ -98,7 +98,7 @@ fn voxels(views: &[MvsView], maps: &[DepthMap], block: &Block, voxel_size: f64) 
     let middle = block.map(|index| (f64::from(index) * edge + 0.5 * (edge - 1.0)) * voxel_size);
     let radius = 0.5 * 3f64.sqrt() * (edge - 1.0) * voxel_size;
     for (view, map) in views.iter().zip(maps) {
-        if sees(view, &Point3::from(middle), radius) {
+        if has_in_view(view, &Point3::from(middle), radius) {
             add(&mut sums, view, map, block, voxel_size);
         }
     }
@@ -118,7 +118,7 @@ fn voxels(views: &[MvsView], maps: &[DepthMap], block: &Block, voxel_size: f64) 
 }
 
 /// Returns whether a view may see a part of a ball.
-fn sees(view: &MvsView, middle: &Point3<f64>, radius: f64) -> bool {
+fn has_in_view(view: &MvsView, middle: &Point3<f64>, radius: f64) -> bool {
     let in_cam = view.camera.cam_from_world * middle;
     if in_cam.z <= radius {
         return in_cam.z > -radius;

@@ -85,8 +85,8 @@ fn vertex(field: &Field, cell: [i32; 3]) -> Option<Vertex> {
     for [from, to] in EDGES {
         if is_inside(from) != is_inside(to) {
             let [a, b] = [from, to].map(|corner| f64::from(corners[corner].distance));
-            let share = a / (a - b);
-            sum += place(from).lerp(&place(to), share);
+            let fraction = a / (a - b);
+            sum += place(from).lerp(&place(to), fraction);
             count += 1.0;
         }
     }

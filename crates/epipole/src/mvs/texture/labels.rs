@@ -96,13 +96,13 @@ fn absorb_small(candidates: &[Vec<Candidate>], across: &[[u32; 3]], labels: &mut
             borders.extend(others.filter(|view| Some(*view) != labels[index]));
         }
         borders.sort_unstable();
-        let sees_all = |view: usize| {
+        let shows_all = |view: usize| {
             let mut lists = piece.iter().map(|&index| &candidates[index]);
             lists.all(|list| list.iter().any(|candidate| candidate.view == view))
         };
         let most = borders
             .chunk_by(|a, b| a == b)
-            .filter(|run| sees_all(run[0]))
+            .filter(|run| shows_all(run[0]))
             .max_by_key(|run| (run.len(), std::cmp::Reverse(run[0])));
         if let Some(run) = most {
             piece.iter().for_each(|&index| labels[index] = Some(run[0]));
@@ -148,8 +148,8 @@ fn spread(mesh: &Mesh, views: &[MvsView], across: &[[u32; 3]], labels: &mut [Opt
             }
             let corners = mesh.triangles[other].map(|vertex| vertex as usize);
             let projects = corners.iter().all(|&vertex| {
-                let seen = project(&views[view], &mesh.vertices.points[vertex]);
-                seen.is_some_and(|(pixel, _)| is_inside(&views[view], &pixel))
+                let projected = project(&views[view], &mesh.vertices.points[vertex]);
+                projected.is_some_and(|(pixel, _)| is_inside(&views[view], &pixel))
             });
             if projects {
                 labels[other] = Some(view);

@@ -134,7 +134,7 @@ impl System {
             num_unknowns: num_unknowns as usize,
             unknowns,
             smooth,
-            seams: averaged(differences),
+            seams: average_repeated(differences),
         }
     }
 
@@ -204,7 +204,7 @@ fn dot(a: &[Vector3<f64>], b: &[Vector3<f64>]) -> Vector3<f64> {
 }
 
 /// Returns the mean of the differences of each pair.
-fn averaged(mut all: Vec<([u32; 2], Vector3<f64>)>) -> Vec<([u32; 2], Vector3<f64>)> {
+fn average_repeated(mut all: Vec<([u32; 2], Vector3<f64>)>) -> Vec<([u32; 2], Vector3<f64>)> {
     // Stable, so that sums keep their order.
     all.sort_by_key(|(pair, _)| *pair);
     let mean = |run: &[([u32; 2], Vector3<f64>)]| {

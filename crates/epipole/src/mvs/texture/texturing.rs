@@ -15,7 +15,7 @@ use image::{Rgb, RgbImage, imageops};
 use nalgebra::{Point2, Vector2, Vector3};
 
 /// Progress when the views of triangles are known, when they are chosen, and when colors agree.
-const SEEN: f32 = 0.5;
+const LEAST_VISIBLE: f32 = 0.5;
 const CHOSEN: f32 = 0.6;
 const LEVELED: f32 = 0.75;
 /// Sides of the patch of triangles that no photo shows, pixels.
@@ -51,8 +51,9 @@ pub fn texture_mesh(
     check_views(views)?;
     check_mesh(mesh, views)?;
     let across = adjacency::neighbors(&mesh.triangles);
-    let candidates = visibility::candidates(mesh, views, &mut Part::new(monitor, 0.0, SEEN))?;
-    let part = &mut Part::new(monitor, SEEN, CHOSEN);
+    let candidates =
+        visibility::candidates(mesh, views, &mut Part::new(monitor, 0.0, LEAST_VISIBLE))?;
+    let part = &mut Part::new(monitor, LEAST_VISIBLE, CHOSEN);
     let labels = labels::choose(mesh, views, &candidates, &across, options.seam_cost, part)?;
     let mut charts = charts(mesh, views, &across, &labels);
     let (size, scale) = pack(&mut charts, options.max_size_px - UNSEEN)?;
@@ -146,7 +147,7 @@ fn patch(photo: &RgbImage, chart: &Chart, offsets: &[[Vector3<f64>; 3]], scale: 
         }
     }
     for _ in 0..=PADDING {
-        known = grown(&known, width as usize);
+        known = grow_colors(&known, width as usize);
     }
     RgbImage::from_fn(width, height, |u, v| {
         match known[(v * width + u) as usize] {
@@ -160,7 +161,7 @@ fn patch(photo: &RgbImage, chart: &Chart, offsets: &[[Vector3<f64>; 3]], scale: 
 }
 
 /// Extends offsets to the neighbors of known pixels, by their means.
-fn grown(known: &[Option<Vector3<f64>>], width: usize) -> Vec<Option<Vector3<f64>>> {
+fn grow_colors(known: &[Option<Vector3<f64>>], width: usize) -> Vec<Option<Vector3<f64>>> {
     let height = known.len() / width.max(1);
     let mut grown = known.to_vec();
     for v in 0..height {

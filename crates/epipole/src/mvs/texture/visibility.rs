@@ -86,12 +86,12 @@ pub(super) fn is_inside(view: &MvsView, pixel: &Point2<f64>) -> bool {
 /// Returns the area of each triangle in a photo, square pixels; 0 where it is not visible.
 fn areas_px(mesh: &Mesh, view: &MvsView) -> Vec<f32> {
     let vertices = &mesh.vertices.points;
-    let seen: Vec<_> = vertices
+    let projected: Vec<_> = vertices
         .iter()
         .map(|vertex| project(view, vertex))
         .collect();
     let corners = |triangle: &[u32; 3]| -> Option<[(Point2<f64>, f64); 3]> {
-        let [a, b, c] = triangle.map(|vertex| seen[vertex as usize]);
+        let [a, b, c] = triangle.map(|vertex| projected[vertex as usize]);
         Some([a?, b?, c?])
     };
     let size = view.image.dimensions();

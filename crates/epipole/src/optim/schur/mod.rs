@@ -398,7 +398,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
     fn cost(&mut self, parameters: &B::Parameters) -> f64 {
         let problem = self.problem;
         let loss = problem.loss();
-        let seen = sum(problem.observations().len(), |o| {
+        let sum_of = sum(problem.observations().len(), |o| {
             let [u, v] = problem.residual(parameters, o);
             loss.rho(u * u + v * v)
         });
@@ -407,7 +407,7 @@ impl<const C: usize, const S: usize, B: BundleProblem<C, S>> System for SchurSys
             .filter_map(|camera| problem.prior(parameters, camera))
             .map(|prior| prior_loss.rho(sum_sq(&prior.residual)))
             .sum();
-        0.5 * (seen + known)
+        0.5 * (sum_of + known)
     }
 }
 

@@ -58,7 +58,7 @@ pub struct Ransac<E: Estimator> {
     random: Random,
     sampler: Sampler,
     sample: Vec<usize>,
-    sample_as_given: Vec<usize>,
+    sample_in_input_order: Vec<usize>,
     models: Vec<E::Model>,
     inliers: Vec<usize>,
     /// Buffer for one number per data point.
@@ -72,7 +72,7 @@ pub struct Ransac<E: Estimator> {
     log_miss: f64,
     stop: Option<StopReason>,
     /// Probability that an unrelated data point fits a model, if known.
-    chance: Option<f64>,
+    random_inlier_probability: Option<f64>,
     /// Threshold for comparing and improving models: the caller's during sampling, the inliers' own
     /// at the end.
     judge_px: f64,
@@ -96,12 +96,13 @@ impl<E: Estimator> Ransac<E> {
         let problem = estimator.problem();
         let (num_data, size) = (problem.data.len(), problem.sample_size);
         problem.data.at_least(size.max(1), problem.name)?;
-        let chance = (problem.data).chance(problem.codimension, options.max_error_px);
+        let random_inlier_probability =
+            (problem.data).random_inlier_probability(problem.codimension, options.max_error_px);
         Ok(Self {
             sampler: Sampler::new(options.sampler, num_data, size, options.max_iterations),
             random: Random::new(options.seed),
             sample: Vec::with_capacity(size),
-            sample_as_given: Vec::with_capacity(size),
+            sample_in_input_order: Vec::with_capacity(size),
             models: Vec::with_capacity(problem.max_models),
             inliers: Vec::with_capacity(num_data),
             values: Vec::with_capacity(num_data),
@@ -112,7 +113,7 @@ impl<E: Estimator> Ransac<E> {
             required: u64::MAX,
             log_miss: libm::log1p(-options.confidence),
             stop: None,
-            chance,
+            random_inlier_probability,
             judge_px: options.max_error_px,
             estimator,
             options,
@@ -187,16 +188,16 @@ impl<E: Estimator> Ransac<E> {
             }
         }
         self.update_stop();
-        self.sample_as_given.clear();
+        self.sample_in_input_order.clear();
         match self.estimator.problem().data.unique() {
             Some(unique) => self
-                .sample_as_given
+                .sample_in_input_order
                 .extend(self.sample.iter().map(|&i| unique.first_occurrences()[i])),
-            None => self.sample_as_given.extend_from_slice(&self.sample),
+            None => self.sample_in_input_order.extend_from_slice(&self.sample),
         }
         Step::Trial(Trial {
             iteration: self.iterations,
-            sample: &self.sample_as_given,
+            sample: &self.sample_in_input_order,
             num_models: self.models.len(),
             model,
             score,

@@ -19,7 +19,7 @@ struct Tuning {
     /// width would narrow each other.
     width_updates: usize,
     /// Minimum fraction of inliers to keep, as numerator and denominator, under the MSAC score.
-    kept: [usize; 2],
+    confirmed: [usize; 2],
 }
 
 const TUNING: Tuning = Tuning {
@@ -27,7 +27,7 @@ const TUNING: Tuning = Tuning {
     width_thresholds: 2.0,
     reweightings: 8,
     width_updates: 5,
-    kept: [19, 20],
+    confirmed: [19, 20],
 };
 
 impl<E: Estimator> Ransac<E> {
@@ -72,11 +72,11 @@ impl<E: Estimator> Ransac<E> {
             model = polished;
         }
         let support = self.support(&model, f64::INFINITY);
-        let [kept, of] = match self.options.score {
-            ScoreKind::Msac => TUNING.kept,
+        let [confirmed, of] = match self.options.score {
+            ScoreKind::Msac => TUNING.confirmed,
             ScoreKind::InlierCount => [1, 1],
         };
-        let keeps = of * support.num_inliers >= kept * candidate.support.num_inliers;
+        let keeps = of * support.num_inliers >= confirmed * candidate.support.num_inliers;
         if keeps && !self.is_concentrated(&model) {
             *candidate = Candidate { model, support };
             self.refinements += 1;

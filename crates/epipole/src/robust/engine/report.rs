@@ -1,7 +1,7 @@
 //! Report of a run.
 
 use super::Ransac;
-use crate::robust::chance::log10_false_alarms;
+use crate::robust::false_alarms::log10_false_alarms;
 use crate::robust::{Estimator, RansacReport, StopReason, Unique};
 use crate::{Error, Result};
 
@@ -35,8 +35,16 @@ impl<E: Estimator> Ransac<E> {
             self.required = self.required_for(self.inliers.len(), num_data);
         }
         let log10_false_alarms = self
-            .chance
-            .map(|chance| log10_false_alarms(num_distinct, num_data, size, max_models, chance));
+            .random_inlier_probability
+            .map(|random_inlier_probability| {
+                log10_false_alarms(
+                    num_distinct,
+                    num_data,
+                    size,
+                    max_models,
+                    random_inlier_probability,
+                )
+            });
         let mut fits = vec![false; num_data];
         for &index in &self.inliers {
             fits[index] = true;

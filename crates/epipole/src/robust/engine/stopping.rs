@@ -2,8 +2,8 @@
 
 use super::{Candidate, Ransac};
 use crate::robust::budget::{all_inlier_probability, ratio_to_the, trials};
-use crate::robust::chance::{UNKNOWN_CHANCE, log10_false_alarms};
-use crate::robust::options::HARDLY_CHANCE;
+use crate::robust::false_alarms::{UNKNOWN_PROBABILITY, log10_false_alarms};
+use crate::robust::options::MAX_LOG10_FALSE_ALARMS;
 use crate::robust::{Budget, Estimator, StopReason};
 
 impl<E: Estimator> Ransac<E> {
@@ -24,7 +24,9 @@ impl<E: Estimator> Ransac<E> {
             return;
         }
         let max_error_px = self.options.max_error_px;
-        let chance = self.chance.unwrap_or(UNKNOWN_CHANCE);
+        let random_inlier_probability = self
+            .random_inlier_probability
+            .unwrap_or(UNKNOWN_PROBABILITY);
         self.estimator
             .inliers(&best.model, max_error_px, &mut self.inliers);
         let mut limit = num_data;
@@ -32,7 +34,13 @@ impl<E: Estimator> Ransac<E> {
             let (num_inliers, front) = (place + 1, index + 1);
             let required = self.required_for(num_inliers, front);
             if required < self.required
-                && log10_false_alarms(num_inliers, front, size, max_models, chance) < HARDLY_CHANCE
+                && log10_false_alarms(
+                    num_inliers,
+                    front,
+                    size,
+                    max_models,
+                    random_inlier_probability,
+                ) < MAX_LOG10_FALSE_ALARMS
             {
                 self.required = required;
                 limit = front;

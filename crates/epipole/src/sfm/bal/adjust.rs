@@ -71,9 +71,10 @@ mod tests {
         let mut random = Random::new(seed);
         let mut problem = BalProblem::default();
         for i in 0..num_cameras {
-            let turn = Vector3::new(0.1 * random.normal(), 0.3 * i as f64, 0.1 * random.normal());
+            let rotation_vector =
+                Vector3::new(0.1 * random.normal(), 0.3 * i as f64, 0.1 * random.normal());
             problem.cameras.push(BalCamera {
-                rotation: turn,
+                rotation: rotation_vector,
                 translation: Vector3::new(0.0, 0.1, -6.0),
                 focal_px: 500.0 + 5.0 * i as f64,
                 k1: 0.01,
@@ -216,9 +217,9 @@ mod tests {
     #[test]
     fn cameras_and_points_without_observations_stay() {
         let mut problem = ring(4, 30, 0.2, 9);
-        let mut lonely = problem.cameras[0];
-        lonely.focal_px = 777.0;
-        problem.cameras.push(lonely);
+        let mut isolated = problem.cameras[0];
+        isolated.focal_px = 777.0;
+        problem.cameras.push(isolated);
         problem.points.push(Point3::new(5.0, 6.0, 7.0));
         let report = adjust_bal(
             &mut problem,

@@ -15,11 +15,11 @@ impl Builder {
         let mut shared = vec![0; self.images.len()];
         for point in self.points.iter().flatten() {
             if point
-                .seen
+                .elements
                 .iter()
                 .any(|element| element.image as usize == image)
             {
-                for element in &point.seen {
+                for element in &point.elements {
                     shared[element.image as usize] += 1;
                 }
             }
@@ -66,13 +66,13 @@ impl Builder {
         for (track, point) in self.points.iter().enumerate() {
             let Some(point) = point else { continue };
             if !point
-                .seen
+                .elements
                 .iter()
                 .any(|element| is_free(element.image as usize))
             {
                 continue;
             }
-            for element in &point.seen {
+            for element in &point.elements {
                 let (image, sensor) = self.frame_of(element.image as usize);
                 let Some(camera) = self.cameras[image] else {
                     continue;

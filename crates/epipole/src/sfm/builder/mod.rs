@@ -22,7 +22,7 @@ use nalgebra::Point3;
 #[derive(Debug, Clone)]
 pub(super) struct TrackPoint {
     pub(super) position: Point3<f64>,
-    pub(super) seen: Vec<TrackElement>,
+    pub(super) elements: Vec<TrackElement>,
 }
 
 pub(super) struct Builder {
@@ -233,8 +233,8 @@ impl Builder {
                 for (element, _) in &visible {
                     let pixel = self.images[image].keypoints[element.keypoint as usize];
                     let cell = |x: f64, size: u32| {
-                        let share = (x + 0.5) / f64::from(size.max(1));
-                        ((share * side as f64) as usize).min(side - 1)
+                        let fraction = (x + 0.5) / f64::from(size.max(1));
+                        ((fraction * side as f64) as usize).min(side - 1)
                     };
                     occupied[cell(pixel.y, height) * side + cell(pixel.x, width)] = true;
                 }
@@ -276,7 +276,7 @@ impl Builder {
         for (n, inlier) in of_visible.into_iter().zip(&found.inliers) {
             let (element, track) = &visible[n];
             if *inlier && let Some(point) = &mut self.points[*track] {
-                insert(&mut point.seen, *element);
+                insert(&mut point.elements, *element);
             }
         }
         Some(found.num_inliers)
@@ -290,7 +290,7 @@ impl Builder {
                 .map(|point| ScenePoint {
                     position: point.position,
                     color: [128; 3],
-                    track: point.seen.clone(),
+                    track: point.elements.clone(),
                     error_px: 0.0,
                 })
                 .collect(),
@@ -302,8 +302,8 @@ impl Builder {
 }
 
 /// Inserts into a list sorted by image.
-fn insert(seen: &mut Vec<TrackElement>, element: TrackElement) {
-    if let Err(place) = seen.binary_search(&element) {
-        seen.insert(place, element);
+fn insert(elements: &mut Vec<TrackElement>, element: TrackElement) {
+    if let Err(place) = elements.binary_search(&element) {
+        elements.insert(place, element);
     }
 }

@@ -41,7 +41,7 @@ impl Builder {
             )
             .map(|(position, inliers)| TrackPoint {
                 position,
-                seen: elements
+                elements: elements
                     .into_iter()
                     .zip(inliers)
                     .filter(|(_, inlier)| *inlier)
@@ -74,11 +74,11 @@ impl Builder {
                 continue;
             };
             for element in &self.tracks[track] {
-                if !point.seen.contains(element)
+                if !point.elements.contains(element)
                     && let Some(sight) = self.sight(*element)
                     && sight.error_sq(&point.position) <= max_error_sq
                 {
-                    insert(&mut point.seen, *element);
+                    insert(&mut point.elements, *element);
                 }
             }
             self.points[track] = Some(point);
@@ -88,7 +88,8 @@ impl Builder {
     /// Drops points with fewer observations than the options require.
     pub(in crate::sfm) fn drop_short_tracks(&mut self) {
         for slot in &mut self.points {
-            if (slot.as_ref()).is_some_and(|point| point.seen.len() < self.options.min_track_length)
+            if (slot.as_ref())
+                .is_some_and(|point| point.elements.len() < self.options.min_track_length)
             {
                 *slot = None;
             }
@@ -106,23 +107,29 @@ impl Builder {
             crate::math::parallel::for_each(&mut points, |_, slot| {
                 let Some(point) = slot else { return };
                 let position = point.position;
-                point.seen.retain(|element| {
+                point.elements.retain(|element| {
                     this.sight(*element).is_some_and(|sight| {
                         sight.error_sq(&position) <= max_error_px * max_error_px
                     })
                 });
                 let centers = point
-                    .seen
+                    .elements
                     .iter()
                     .filter_map(|element| this.cameras[element.image as usize])
                     .map(|camera| camera.center_in_world());
-                if point.seen.len() < 2 || widest_angle_rad(&position, centers) < min_angle_rad {
+                if point.elements.len() < 2 || widest_angle_rad(&position, centers) < min_angle_rad
+                {
                     *slot = None;
                 }
             });
             self.points = points;
             let mut counts = vec![0; self.cameras.len()];
-            for element in self.points.iter().flatten().flat_map(|point| &point.seen) {
+            for element in self
+                .points
+                .iter()
+                .flatten()
+                .flat_map(|point| &point.elements)
+            {
                 counts[self.frame_of(element.image as usize).0] += 1;
             }
             let mut dropped = false;

@@ -73,9 +73,9 @@ mod tests {
     use crate::sfm::bundle::{BundleObservation, adjust_bundle};
     use nalgebra::{Point3, Vector3};
 
-    /// Twelve cameras that move straight ahead, each rotated by `turn_rad` from the one before,
+    /// Twelve cameras that move straight ahead, each rotated by `yaw_rad` from the one before,
     /// refined from pixels with 0.3 px noise.
-    fn drive(turn_rad: f64, focal_px: f64) -> Bundle {
+    fn drive(yaw_rad: f64, focal_px: f64) -> Bundle {
         let mut random = Random::new(7);
         let with = |focal_px| {
             let k = Intrinsics::centered(focal_px, 1000, 600).unwrap();
@@ -90,18 +90,18 @@ mod tests {
                 .push(Point3::new(place[0], place[1], random.uniform(4.0, 30.0)));
         }
         for n in 0..12 {
-            let turn =
-                RigidTransform::new(Vector3::zeros(), Vector3::y() * (turn_rad * f64::from(n)));
+            let rotation =
+                RigidTransform::new(Vector3::zeros(), Vector3::y() * (yaw_rad * f64::from(n)));
             let ahead = RigidTransform::translation(0.0, 0.0, -0.6 * f64::from(n));
-            let cam_from_world = turn * ahead;
+            let cam_from_world = rotation * ahead;
             let camera = bundle.cameras.len();
-            let seen = PosedCamera {
+            let posed = PosedCamera {
                 camera: with(700.0),
                 cam_from_world,
             };
             for (point, place) in bundle.points.iter().enumerate() {
                 let depth = (cam_from_world * place).z;
-                let Ok(pixel) = seen.project(place) else {
+                let Ok(pixel) = posed.project(place) else {
                     continue;
                 };
                 let noise = Vector3::from_fn(|_, _| 0.3 * random.normal()).xy();
@@ -155,11 +155,11 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_drive_does_not_tell_the_focal_length() {
+    fn a_straight_drive_does_not_determine_the_focal_length() {
         let sensitivity =
-            |turn_rad| focal_sensitivity(&drive(turn_rad, 1200.0), RobustLoss::Trivial).unwrap()[0];
-        let (straight, turned) = (sensitivity(0.0), sensitivity(0.05));
+            |yaw_rad| focal_sensitivity(&drive(yaw_rad, 1200.0), RobustLoss::Trivial).unwrap()[0];
+        let (straight, curved) = (sensitivity(0.0), sensitivity(0.05));
         assert!(straight < 1e-3, "{straight}");
-        assert!(turned > 0.1, "{turned}");
+        assert!(curved > 0.1, "{curved}");
     }
 }

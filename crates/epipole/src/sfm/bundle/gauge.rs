@@ -14,13 +14,13 @@ pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bo
     if options.gauge == Gauge::Free || num_held >= 2 || point_held || known {
         return held;
     }
-    let mut seen = vec![false; bundle.cameras.len()];
+    let mut has_observation = vec![false; bundle.cameras.len()];
     for o in &bundle.observations {
-        seen[o.camera] = true;
+        has_observation[o.camera] = true;
     }
     let Some(anchor) = (0..held.len())
         .find(|&i| held[i][0])
-        .or_else(|| (0..held.len()).find(|&i| seen[i]))
+        .or_else(|| (0..held.len()).find(|&i| has_observation[i]))
     else {
         return held;
     };
@@ -29,7 +29,7 @@ pub(super) fn held_freedoms(bundle: &Bundle, options: &BundleOptions) -> Vec<[bo
     let mut farthest = (0.0, None);
     for (i, camera) in bundle.cameras.iter().enumerate() {
         let distance = (camera.center_in_world() - origin).norm();
-        if i != anchor && seen[i] && distance > farthest.0 {
+        if i != anchor && has_observation[i] && distance > farthest.0 {
             farthest = (distance, Some(i));
         }
     }

@@ -1,7 +1,7 @@
 //! Bundle adjustment with lenses beyond Brown's model.
 
 use super::lens_state::{OF_ANY, OF_BROWN};
-use super::tests::{check_derivatives, disturb, everything, photograph, set_lenses};
+use super::tests::{all_free, check_derivatives, disturb, project_points, set_lenses};
 use super::*;
 use crate::Error;
 use crate::camera::{
@@ -29,7 +29,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: 
         ..Bundle::default()
     };
     for _ in 0..num_cameras {
-        let turn = 0.3 * Vector3::from_fn(|_, _| random.normal());
+        let rotation_vector = 0.3 * Vector3::from_fn(|_, _| random.normal());
         let shift = 0.6 * Vector3::from_fn(|_, _| random.normal());
         bundle.cameras.push(PosedCamera {
             camera: Camera::pinhole(
@@ -37,7 +37,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: 
                 640,
                 480,
             ),
-            cam_from_world: RigidTransform::new(shift, turn),
+            cam_from_world: RigidTransform::new(shift, rotation_vector),
         });
     }
     for _ in 0..num_points {
@@ -59,7 +59,7 @@ fn surrounded(num_cameras: usize, num_points: usize, lenses: &[Lens], half_deg: 
         }
     }
     set_lenses(&mut bundle, lenses);
-    photograph(&mut bundle);
+    project_points(&mut bundle);
     bundle
 }
 
@@ -71,7 +71,7 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
         LensKind::Brown,
         LensKind::Rational,
     ];
-    let options = everything();
+    let options = all_free();
     let few = surrounded(
         3,
         60,
@@ -87,17 +87,17 @@ fn derivatives_of_every_lens_are_those_of_central_differences() {
         &options,
     );
     // Through a sensor that looks from the side.
-    let seen_through = any.cameras[0].camera;
+    let free_camera = any.cameras[0].camera;
     any.sensors.push(Sensor {
         sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), Vector3::y() * 0.2),
         camera: Camera {
             intrinsics: Intrinsics::new(310.0, 312.0, 480.0, 500.0).unwrap(),
-            ..seen_through
+            ..free_camera
         },
         lens: 0,
     });
     any.sensor_of_observation = (0..any.observations.len()).map(|o| o % 2).collect();
-    photograph(&mut any);
+    project_points(&mut any);
     check_derivatives::<OF_ANY>(&any, &options);
 }
 
@@ -110,7 +110,7 @@ fn comes_back(lenses: &[Lens], start: &[Lens], half_deg: f64) -> Bundle {
         camera.camera.intrinsics = Intrinsics::new(309.0, 312.09, 502.0, 487.0).unwrap();
     }
     set_lenses(&mut bundle, start);
-    let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
+    let report = adjust_bundle(&mut bundle, &all_free(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-9, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let (got, want) = (got.camera.intrinsics, want.camera.intrinsics);
@@ -167,7 +167,7 @@ fn a_rational_lens_finds_how_it_bends() {
     let options = BundleOptions {
         refine_focal: false,
         refine_principal_point: false,
-        ..everything()
+        ..all_free()
     };
     let report = adjust_bundle(&mut bundle, &options, &mut ()).unwrap();
     assert!(report.final_cost < 1e-6, "{report:?}");
@@ -216,7 +216,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
             coefficients: [0.0, k, 0.0, 0.0],
         };
         set_lenses(&mut bundle, &[bad.into()]);
-        let refused = adjust_bundle(&mut bundle, &everything(), &mut ());
+        let refused = adjust_bundle(&mut bundle, &all_free(), &mut ());
         assert!(
             matches!(refused, Err(Error::NotFinite { .. })),
             "{refused:?}"
@@ -229,7 +229,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     let camera = behind.cameras[o.camera].cam_from_world;
     behind.points[o.point] = camera.inverse() * Point3::new(0.0, 0.0, -2.0);
     behind.cameras[o.camera].cam_from_world = camera;
-    match adjust_bundle(&mut behind, &everything(), &mut ()) {
+    match adjust_bundle(&mut behind, &all_free(), &mut ()) {
         Ok(_) => assert!(
             behind
                 .points
@@ -241,7 +241,7 @@ fn bad_lenses_are_refused_or_leave_the_bundle_as_it_was() {
     // A pincushion lens sees no rays beyond its fold.
     let mut folded = good;
     set_lenses(&mut folded, &[Division { k: 0.5 }.into()]);
-    let refused = adjust_bundle(&mut folded, &everything(), &mut ());
+    let refused = adjust_bundle(&mut folded, &all_free(), &mut ());
     assert!(
         matches!(refused, Err(Error::NotFinite { .. })),
         "{refused:?}"

@@ -65,9 +65,9 @@ pub(super) fn set_lenses(bundle: &mut Bundle, lenses: &[Lens]) {
 pub(super) fn disturb(bundle: &mut Bundle, amount: f64) {
     let mut random = Random::new(22);
     for camera in bundle.cameras.iter_mut().skip(1) {
-        let turn = Vector3::from_fn(|_, _| amount * random.normal());
+        let rotation_vector = Vector3::from_fn(|_, _| amount * random.normal());
         let shift = Vector3::from_fn(|_, _| amount * random.normal());
-        camera.cam_from_world = RigidTransform::new(shift, turn) * camera.cam_from_world;
+        camera.cam_from_world = RigidTransform::new(shift, rotation_vector) * camera.cam_from_world;
     }
     for point in &mut bundle.points {
         *point += Vector3::from_fn(|_, _| amount * random.normal());
@@ -82,7 +82,7 @@ fn exact() -> LmOptions {
     }
 }
 
-pub(super) fn everything() -> BundleOptions {
+pub(super) fn all_free() -> BundleOptions {
     BundleOptions {
         lm: exact(),
         refine_focal: true,
@@ -109,12 +109,12 @@ fn jacobians_are_those_of_central_differences() {
     disturb(&mut bundle, 0.02);
     let options = BundleOptions {
         position_priors: vec![None, known(&bundle.cameras[1], 0.3)],
-        ..everything()
+        ..all_free()
     };
     // A sensor that looks sideways through its own lens sees the second half.
-    let turn = Vector3::new(0.05, -0.2, 0.1);
+    let rotation_vector = Vector3::new(0.05, -0.2, 0.1);
     bundle.sensors.push(Sensor {
-        sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), turn),
+        sensor_from_camera: RigidTransform::new(Vector3::new(-0.5, 0.1, 0.05), rotation_vector),
         camera: Camera::pinhole(
             Intrinsics::new(700.0, 710.0, 300.0, 200.0).unwrap(),
             640,
@@ -209,7 +209,7 @@ fn known(camera: &PosedCamera, sigma: f64) -> Option<PositionPrior> {
 }
 
 /// Sets the observed pixels of a bundle to their projections.
-pub(super) fn photograph(bundle: &mut Bundle) {
+pub(super) fn project_points(bundle: &mut Bundle) {
     for index in 0..bundle.observations.len() {
         let off = bundle.residual_px(index);
         bundle.observations[index].pixel += off;
@@ -217,7 +217,7 @@ pub(super) fn photograph(bundle: &mut Bundle) {
 }
 
 #[test]
-fn each_lens_is_refined_by_what_was_seen_through_it() {
+fn each_lens_is_refined_by_its_own_observations() {
     let mut bundle = arc(9, 120, Distortion::NONE);
     bundle.lens_of_camera = (0..9).map(|camera| camera % 3).collect();
     let lenses = [(-0.1, 0.003), (0.06, -0.002), (-0.02, 0.001)];
@@ -230,7 +230,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     for (index, camera) in bundle.cameras.iter_mut().enumerate() {
         camera.camera.intrinsics = k[index % 3];
     }
-    photograph(&mut bundle);
+    project_points(&mut bundle);
     let truth = bundle.clone();
     disturb(&mut bundle, 0.01);
     for (index, camera) in bundle.cameras.iter_mut().enumerate() {
@@ -246,7 +246,7 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
         ..Distortion::NONE
     };
     set_lenses(&mut bundle, &[only_third.into(); 3]);
-    let report = adjust_bundle(&mut bundle, &everything(), &mut ()).unwrap();
+    let report = adjust_bundle(&mut bundle, &all_free(), &mut ()).unwrap();
     assert!(report.final_cost < 1e-12, "{report:?}");
     for (got, want) in bundle.cameras.iter().zip(&truth.cameras) {
         let (got, want) = (got.camera.intrinsics, want.camera.intrinsics);
@@ -275,13 +275,13 @@ fn each_lens_is_refined_by_what_was_seen_through_it() {
     // One shared lens does not fit three lenses.
     let mut shared = truth.clone();
     shared.lens_of_camera = Vec::new();
-    let refused = adjust_bundle(&mut shared, &everything(), &mut ());
+    let refused = adjust_bundle(&mut shared, &all_free(), &mut ());
     assert!(
         matches!(refused, Err(Error::Degenerate { .. })),
         "{refused:?}"
     );
     set_lenses(&mut shared, &[only_third.into()]);
-    let report = adjust_bundle(&mut shared, &everything(), &mut ()).unwrap();
+    let report = adjust_bundle(&mut shared, &all_free(), &mut ()).unwrap();
     assert!(report.final_cost > 1.0, "{report:?}");
 }
 

@@ -339,8 +339,11 @@ mod tests {
 
     #[test]
     fn a_loop_that_closes_is_straightened() {
-        let turn = std::f64::consts::TAU / 12.0;
-        let step = Isometry3::new(Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 0.0, turn));
+        let angle_rad = std::f64::consts::TAU / 12.0;
+        let step = Isometry3::new(
+            Vector3::new(1.0, 0.0, 0.0),
+            Vector3::new(0.0, 0.0, angle_rad),
+        );
         let mut graph = circle(12, step, |a, b| a * b, Isometry3::identity());
         let truth = graph.vertices.clone();
         let mut random = Random::new(42);
@@ -367,15 +370,15 @@ mod tests {
     #[test]
     fn drift_of_scale_is_spread_over_the_loop() {
         // Every step seems 2 % longer than the one before, but the loop contradicts this.
-        let turn = std::f64::consts::TAU / 30.0;
+        let angle_rad = std::f64::consts::TAU / 30.0;
         let true_step = Similarity3::new(
             Vector3::new(1.0, 0.0, 0.0),
-            Vector3::new(0.0, 0.0, turn),
+            Vector3::new(0.0, 0.0, angle_rad),
             1.0,
         );
         let drifting = Similarity3::new(
             Vector3::new(1.0, 0.0, 0.0),
-            Vector3::new(0.0, 0.0, turn),
+            Vector3::new(0.0, 0.0, angle_rad),
             1.02,
         );
         let mut graph = circle(30, drifting, |a, b| a * b, Similarity3::identity());
@@ -406,7 +409,7 @@ mod tests {
         let points = [at(2.0, 1.0), at(1.0, -2.0)];
         let truth = Isometry2::new(Vector2::new(1.0, 0.5), 0.4);
         let position = SMatrix::<f64, 3, 3>::from_diagonal(&SVector::from([4.0, 4.0, 0.0]));
-        let sees = |from: usize, pose: &Isometry2<f64>, to: usize| Edge {
+        let measure = |from: usize, pose: &Isometry2<f64>, to: usize| Edge {
             from,
             to,
             from_from_to: Isometry2::from_parts(
@@ -420,10 +423,10 @@ mod tests {
             ids: vec![7, 8, 0, 1],
             vertices: vec![at(9.0, 9.0), at(-3.0, 0.0), identity, at(0.2, 0.1)],
             edges: vec![
-                sees(2, &identity, 0),
-                sees(2, &identity, 1),
-                sees(3, &truth, 0),
-                sees(3, &truth, 1),
+                measure(2, &identity, 0),
+                measure(2, &identity, 1),
+                measure(3, &truth, 0),
+                measure(3, &truth, 1),
             ],
             landmarks: vec![0, 1],
             ..Graph::default()
@@ -472,8 +475,8 @@ mod tests {
 
     #[test]
     fn a_robust_loss_survives_a_wrong_loop() {
-        let turn = std::f64::consts::TAU / 12.0;
-        let step = Isometry2::new(Vector2::new(1.0, 0.0), turn);
+        let angle_rad = std::f64::consts::TAU / 12.0;
+        let step = Isometry2::new(Vector2::new(1.0, 0.0), angle_rad);
         let mut graph = circle(12, step, |a, b| a * b, Isometry2::identity());
         let truth = graph.vertices.clone();
         graph.edges.push(Edge {

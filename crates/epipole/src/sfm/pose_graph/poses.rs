@@ -25,10 +25,10 @@ pub trait GraphPose<const D: usize>: Clone + Copy + PartialEq + Send + Sync {
 }
 
 /// Wraps an angle to (−π, π].
-fn wrapped(angle_rad: f64) -> f64 {
+fn wrap_angle(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
-    let turns = (angle_rad / TAU).round();
-    let angle = angle_rad - turns * TAU;
+    let num_rotations = (angle_rad / TAU).round();
+    let angle = angle_rad - num_rotations * TAU;
     if angle <= -PI { angle + TAU } else { angle }
 }
 
@@ -36,14 +36,14 @@ impl GraphPose<3> for Isometry2<f64> {
     fn error(a: &Self, b: &Self, measured: &Self) -> SVector<f64, 3> {
         let difference = measured.inv_mul(&a.inv_mul(b));
         let t = difference.translation.vector;
-        SVector::<f64, 3>::new(t.x, t.y, wrapped(difference.rotation.angle()))
+        SVector::<f64, 3>::new(t.x, t.y, wrap_angle(difference.rotation.angle()))
     }
 
     fn linearize(a: &Self, b: &Self, measured: &Self) -> EdgeTerms<3> {
         let b_in_a = a.inv_mul(b);
         let difference = measured.inv_mul(&b_in_a);
         let undo = measured.rotation.inverse().to_rotation_matrix();
-        let turn = difference.rotation.to_rotation_matrix();
+        let rotation = difference.rotation.to_rotation_matrix();
         let mut from = SMatrix::<f64, 3, 3>::zeros();
         let mut to = SMatrix::<f64, 3, 3>::zeros();
         from.fixed_view_mut::<2, 2>(0, 0).copy_from(&-undo.matrix());
@@ -53,7 +53,7 @@ impl GraphPose<3> for Isometry2<f64> {
         from[(0, 2)] = swept.x;
         from[(1, 2)] = swept.y;
         from[(2, 2)] = -1.0;
-        to.fixed_view_mut::<2, 2>(0, 0).copy_from(turn.matrix());
+        to.fixed_view_mut::<2, 2>(0, 0).copy_from(rotation.matrix());
         to[(2, 2)] = 1.0;
         EdgeTerms {
             residual: Self::error(a, b, measured),
@@ -63,9 +63,9 @@ impl GraphPose<3> for Isometry2<f64> {
     }
 
     fn plus(&self, delta: &SVector<f64, 3>) -> Self {
-        let turn = UnitComplex::from_rotation_matrix(&Rotation2::new(delta[2]));
+        let delta_rotation = UnitComplex::from_rotation_matrix(&Rotation2::new(delta[2]));
         let shift = self.rotation * Vector2::new(delta[0], delta[1]);
-        let mut rotation = self.rotation * turn;
+        let mut rotation = self.rotation * delta_rotation;
         rotation.renormalize();
         Isometry2::from_parts(
             Translation2::from(self.translation.vector + shift),
@@ -87,20 +87,20 @@ impl GraphPose<3> for Isometry2<f64> {
         let t = self.translation.vector;
         let half = 0.5 * self.rotation.angle();
         let (sin, cos) = (libm::sin(half), libm::cos(half));
-        let turn = UnitQuaternion::new_normalize(nalgebra::Quaternion::new(cos, 0.0, 0.0, sin));
-        Similarity3::from_parts(Translation3::new(t.x, t.y, 0.0), turn, 1.0)
+        let rotation = UnitQuaternion::new_normalize(nalgebra::Quaternion::new(cos, 0.0, 0.0, sin));
+        Similarity3::from_parts(Translation3::new(t.x, t.y, 0.0), rotation, 1.0)
     }
 
     fn from_similarity(pose: &Similarity3<f64>) -> Self {
         let t = pose.isometry.translation.vector;
         let x = pose.isometry.rotation * Vector3::x();
-        let turn = UnitComplex::new(libm::atan2(x.y, x.x));
-        Isometry2::from_parts(Translation2::new(t.x, t.y), turn)
+        let rotation = UnitComplex::new(libm::atan2(x.y, x.x));
+        Isometry2::from_parts(Translation2::new(t.x, t.y), rotation)
     }
 }
 
 /// Returns the quaternion with a nonnegative real part, split into real and vector part.
-fn half_turn(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
+fn canonical_parts(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
     let (w, v) = (rotation.w, rotation.imag());
     if w < 0.0 { (-w, -v) } else { (w, v) }
 }
@@ -117,7 +117,7 @@ fn similarity_terms(
 ) -> (SVector<f64, 7>, SMatrix<f64, 7, 7>, SMatrix<f64, 7, 7>) {
     let b_in_a = a.inverse() * b;
     let difference = measured.inverse() * b_in_a;
-    let (w, v) = half_turn(&difference.isometry.rotation);
+    let (w, v) = canonical_parts(&difference.isometry.rotation);
     let t = difference.isometry.translation.vector;
     let mut error = SVector::<f64, 7>::zeros();
     error.fixed_rows_mut::<3>(0).copy_from(&t);
@@ -135,13 +135,13 @@ fn similarity_terms(
     // On the right of a: the inverse of the step acts on b in the frame of a.
     let undo = rotation(measured).transpose();
     let scaled_undo = undo / measured.scaling();
-    let seen = b_in_a.isometry.translation.vector;
+    let translation = b_in_a.isometry.translation.vector;
     let mut from = SMatrix::<f64, 7, 7>::zeros();
     from.fixed_view_mut::<3, 3>(0, 0).copy_from(&-scaled_undo);
     from.fixed_view_mut::<3, 3>(0, 3)
-        .copy_from(&(scaled_undo * seen.cross_matrix()));
+        .copy_from(&(scaled_undo * translation.cross_matrix()));
     from.fixed_view_mut::<3, 1>(0, 6)
-        .copy_from(&-(scaled_undo * seen));
+        .copy_from(&-(scaled_undo * translation));
     from.fixed_view_mut::<3, 3>(3, 3)
         .copy_from(&((v.cross_matrix() - Matrix3::identity() * w) * undo * 0.5));
     from[(6, 6)] = -1.0;
@@ -150,8 +150,9 @@ fn similarity_terms(
 
 fn similarity_plus(pose: &Similarity3<f64>, delta: &SVector<f64, 7>) -> Similarity3<f64> {
     let shift = pose.isometry.rotation * Vector3::new(delta[0], delta[1], delta[2]);
-    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(delta[3], delta[4], delta[5]));
-    let mut rotation = pose.isometry.rotation * turn;
+    let delta_rotation =
+        UnitQuaternion::from_scaled_axis(Vector3::new(delta[3], delta[4], delta[5]));
+    let mut rotation = pose.isometry.rotation * delta_rotation;
     rotation.renormalize();
     let translation = pose.isometry.translation.vector + shift * pose.scaling();
     // Keep the scale away from zero and infinity, where the similarity degenerates.
@@ -164,7 +165,7 @@ impl GraphPose<6> for Isometry3<f64> {
         let difference = measured.inv_mul(&a.inv_mul(b));
         let (t, (_, v)) = (
             difference.translation.vector,
-            half_turn(&difference.rotation),
+            canonical_parts(&difference.rotation),
         );
         SVector::<f64, 6>::new(t.x, t.y, t.z, v.x, v.y, v.z)
     }
@@ -281,8 +282,8 @@ mod tests {
 
     #[test]
     fn angles_are_wrapped() {
-        assert!((wrapped(7.0) - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
-        assert_eq!(wrapped(std::f64::consts::PI), std::f64::consts::PI);
-        assert_eq!(wrapped(-std::f64::consts::PI), std::f64::consts::PI);
+        assert!((wrap_angle(7.0) - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
+        assert_eq!(wrap_angle(std::f64::consts::PI), std::f64::consts::PI);
+        assert_eq!(wrap_angle(-std::f64::consts::PI), std::f64::consts::PI);
     }
 }

@@ -55,8 +55,8 @@ mod tests {
     use crate::optim::{LmOptions, RobustLoss};
     use nalgebra::{Isometry2, Matrix3, Vector2, Vector3};
 
-    fn at(x: f64, y: f64, turn_rad: f64) -> Isometry2<f64> {
-        Isometry2::new(Vector2::new(x, y), turn_rad)
+    fn at(x: f64, y: f64, yaw_rad: f64) -> Isometry2<f64> {
+        Isometry2::new(Vector2::new(x, y), yaw_rad)
     }
 
     /// Three poses in a row, measured 1 apart.
@@ -75,7 +75,7 @@ mod tests {
         }
     }
 
-    fn solved(mut graph: Graph<Isometry2<f64>, 3>) -> Graph<Isometry2<f64>, 3> {
+    fn solve(mut graph: Graph<Isometry2<f64>, 3>) -> Graph<Isometry2<f64>, 3> {
         let options = LmOptions::default();
         graph
             .optimize(&options, RobustLoss::Trivial, &mut ())
@@ -86,19 +86,23 @@ mod tests {
     #[test]
     fn a_prior_moves_the_whole_part() {
         let mut graph = row();
-        let turn = core::f64::consts::FRAC_PI_2;
+        let angle_rad = core::f64::consts::FRAC_PI_2;
         graph.priors.push(PosePrior {
             vertex: 1,
-            world_from_vertex: at(5.0, 6.0, turn),
+            world_from_vertex: at(5.0, 6.0, angle_rad),
             information: Matrix3::identity(),
         });
-        for graph in [solved(graph.clone()), {
+        for graph in [solve(graph.clone()), {
             graph.initialize(&mut ()).unwrap();
             graph
         }] {
             assert!(graph.chi2() < 1e-12, "{}", graph.chi2());
             assert_eq!((graph.vertices.len(), graph.priors.len()), (3, 1));
-            let expected = [at(5.0, 5.0, turn), at(5.0, 6.0, turn), at(5.0, 7.0, turn)];
+            let expected = [
+                at(5.0, 5.0, angle_rad),
+                at(5.0, 6.0, angle_rad),
+                at(5.0, 7.0, angle_rad),
+            ];
             for (found, expected) in graph.vertices.iter().zip(&expected) {
                 let off = found.inv_mul(expected);
                 assert!(off.translation.vector.norm() + off.rotation.angle().abs() < 1e-6);
@@ -107,7 +111,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_alone_turn_the_row() {
+    fn positions_alone_rotate_the_row() {
         // Two positions 2.2 apart of poses measured 2 apart: with equal weights each of the four
         // errors is 0.05 along the row, and 0.1 at both ends of the positions balances it.
         let mut graph = row();
@@ -119,7 +123,7 @@ mod tests {
                 information: position,
             });
         }
-        let graph = solved(graph);
+        let graph = solve(graph);
         assert!(
             (graph.chi2() - 4.0 * 0.05 * 0.05).abs() < 1e-9,
             "{}",
@@ -131,14 +135,14 @@ mod tests {
     }
 
     #[test]
-    fn one_position_leaves_the_turn_and_fits() {
+    fn one_position_leaves_the_rotation_and_fits() {
         let mut graph = row();
         graph.priors.push(PosePrior {
             vertex: 2,
             world_from_vertex: at(-3.0, 4.0, 0.0),
             information: Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0)),
         });
-        let graph = solved(graph);
+        let graph = solve(graph);
         assert!(graph.chi2() < 1e-12, "{}", graph.chi2());
         let place = graph.vertices[2].translation.vector;
         assert!((place - Vector2::new(-3.0, 4.0)).norm() < 1e-6);

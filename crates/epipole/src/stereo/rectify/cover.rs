@@ -94,7 +94,10 @@ fn around_rectangles(
     }
     let focal_px = all_valid * (1.0 - alpha) + all_shown * alpha;
     let middle = (new_size - Vector2::new(1.0, 1.0)) / 2.0;
-    Some((focal_px, middles.map(|seen| middle - seen * focal_px)))
+    Some((
+        focal_px,
+        middles.map(|visible_center| middle - visible_center * focal_px),
+    ))
 }
 
 /// Frames the cameras' coverage: between the innermost points of the images' sides, or, for slanted
@@ -104,7 +107,7 @@ fn around_rectangles(
 ///
 /// # Errors
 /// [`Error::Degenerate`] if the cameras' coverages do not overlap.
-pub(super) fn around_what_is_seen(
+pub(super) fn around_visible(
     outlines: &[Outline; 2],
     is_shared: [bool; 2],
     new_size: &Vector2<f64>,

@@ -3,6 +3,7 @@
 mod checks;
 mod cover;
 mod outline;
+mod parallel_rotations;
 mod q_matrix;
 mod rect;
 mod rectification;
@@ -10,7 +11,6 @@ mod rectify_calibrated;
 mod slanted;
 #[cfg(test)]
 mod tests;
-mod turn;
 
 pub(crate) use outline::{farthest_ray, flat, outline as border_outline};
 pub use q_matrix::q_from_rig;

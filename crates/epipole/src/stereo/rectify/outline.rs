@@ -11,7 +11,7 @@ const WIDEST_DEG: f64 = 80.0;
 
 /// Minimum range of the lens model, relative to the distance from the middle to the border, for
 /// rectification to be useful.
-const LEAST_SEEN: f64 = 0.5;
+const LEAST_VISIBLE: f64 = 0.5;
 
 const FOLDS: Error = Error::Degenerate {
     what: "a rectification",
@@ -57,8 +57,8 @@ pub(crate) fn outline(
     };
     let mut sides: [Vec<Vector2<f64>>; 4] = Default::default();
     for k in 0..=STEPS {
-        let share = f64::from(k) / f64::from(STEPS);
-        let (u, v) = (share * last_u, share * last_v);
+        let fraction = f64::from(k) / f64::from(STEPS);
+        let (u, v) = (fraction * last_u, fraction * last_v);
         let (left, right) = (place(0.0, v)?, place(last_u, v)?);
         let (top, bottom) = (place(u, 0.0)?, place(u, last_v)?);
         inner.u_min = inner.u_min.max(left.x);
@@ -107,16 +107,16 @@ pub(crate) fn farthest_ray(
         Err(missing) => missing,
     };
     let center = camera.intrinsics.principal_point();
-    let toward = |share: f64| camera.ray(&(center + (pixel - center) * share));
-    let (mut seen, mut beyond) = (LEAST_SEEN, 1.0);
-    let mut ray = toward(seen).map_err(|_| match missing {
+    let toward = |fraction: f64| camera.ray(&(center + (pixel - center) * fraction));
+    let (mut visible, mut beyond) = (LEAST_VISIBLE, 1.0);
+    let mut ray = toward(visible).map_err(|_| match missing {
         Error::Degenerate { .. } => folds,
         missing => missing,
     })?;
     for _ in 0..30 {
-        let middle = 0.5 * (seen + beyond);
+        let middle = 0.5 * (visible + beyond);
         match toward(middle) {
-            Ok(found) => (seen, ray) = (middle, found),
+            Ok(found) => (visible, ray) = (middle, found),
             Err(_) => beyond = middle,
         }
     }
@@ -134,7 +134,7 @@ pub(crate) fn flat(ray: &Vector3<f64>) -> core::result::Result<Vector2<f64>, Vec
 }
 
 /// Returns the outline of an image with rotated rays.
-pub(super) fn turned_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) -> Result<Outline> {
+pub(super) fn rotated_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) -> Result<Outline> {
     outline(camera.width, camera.height, |u, v| {
         let pixel = Point2::new(u, v);
         let ray = rect_from_cam * farthest_ray(camera, &pixel, FOLDS)?;
@@ -144,8 +144,8 @@ pub(super) fn turned_outline(camera: &Camera, rect_from_cam: &Rotation3<f64>) ->
         if ray.z < 1e-3 {
             return Err(Error::Degenerate {
                 what: "a rectification",
-                why: "a part of a photograph looks along the baseline or backwards from it; a narrower part \
-                      of the photographs, or cameras that stand side by side, can be rectified",
+                why: "a part of an image looks along the baseline or backwards from it; a narrower part \
+                      of the images, or cameras side by side, can be rectified",
             });
         }
         Ok(ray.xy() / ray.z)

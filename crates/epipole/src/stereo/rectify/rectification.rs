@@ -44,8 +44,8 @@ impl Rectification {
     /// away from it, and as [`Lens::ray`](crate::camera::Lens::ray).
     pub fn rectify_pixel(&self, index: usize, pixel: &Point2<f64>) -> Result<Point2<f64>> {
         let i = checked_index(index)?;
-        let turned = self.rect_from_cam[i] * self.cameras[i].ray(pixel)?;
-        self.intrinsics[i].project(&turned.into())
+        let rotated = self.rect_from_cam[i] * self.cameras[i].ray(pixel)?;
+        self.intrinsics[i].project(&rotated.into())
     }
 
     /// Returns the position in image 0 or 1 for a rectified pixel, with rotation and lens in one
@@ -62,7 +62,7 @@ impl Rectification {
         let ray = self.rect_from_cam[i].inverse() * self.intrinsics[i].ray(rectified);
         let camera = &self.cameras[i];
         // Beyond its fold the lens model would show the same content again.
-        if !camera.lens.is_seen(&ray) {
+        if !camera.lens.is_visible(&ray) {
             return Ok(None);
         }
         Ok(camera.project(&ray.into()).ok())

@@ -1,12 +1,12 @@
 //! Rectification of a calibrated rig.
 
 use super::checks::{check, common_size};
-use super::cover::{LARGEST_CROP, around_principal_points, around_what_is_seen};
-use super::outline::turned_outline;
+use super::cover::{LARGEST_CROP, around_principal_points, around_visible};
+use super::outline::rotated_outline;
+use super::parallel_rotations::parallel_rotations;
 use super::q_matrix::q_matrix;
 use super::rect::PixelRect;
 use super::rectification::Rectification;
-use super::turn::turn_parallel;
 use crate::Result;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use derive_setters::Setters;
@@ -89,15 +89,15 @@ pub fn rectify_calibrated(
     let (width, height) = common_size(cameras)?;
     let (new_width, new_height) = options.size.unwrap_or((width, height));
     check(width, height, new_width, new_height, options.alpha)?;
-    let turned = turn_parallel(cam2_from_cam1)?;
-    let rect_from_cam = turned.rect_from_cam;
+    let parallel = parallel_rotations(cam2_from_cam1)?;
+    let rect_from_cam = parallel.rect_from_cam;
 
     // An initial focal length; the zoom follows.
     let focal_px = cameras
         .iter()
         .flat_map(|c| [c.intrinsics.fu_px(), c.intrinsics.fv_px()])
         .fold(f64::INFINITY, f64::min);
-    let outlines = [0, 1].map(|i| turned_outline(&cameras[i], &rect_from_cam[i]));
+    let outlines = [0, 1].map(|i| rotated_outline(&cameras[i], &rect_from_cam[i]));
     let [outline1, outline2] = outlines;
     let outlines = [outline1?, outline2?];
 
@@ -108,19 +108,19 @@ pub fn rectify_calibrated(
     let mean = (centers[0] + centers[1]) / 2.0;
     if options.zero_disparity_at_infinity {
         centers = [mean; 2];
-    } else if turned.is_vertical {
+    } else if parallel.is_vertical {
         centers.iter_mut().for_each(|c| c.x = mean.x);
     } else {
         centers.iter_mut().for_each(|c| c.y = mean.y);
     }
-    let axis = usize::from(turned.is_vertical);
+    let axis = usize::from(parallel.is_vertical);
     let shared = [0, 1].map(|a| options.zero_disparity_at_infinity || a != axis);
-    let seen = around_what_is_seen(&outlines, shared, &new_size, options.alpha)?;
+    let visible = around_visible(&outlines, shared, &new_size, options.alpha)?;
     // The principal points stay in place, as is usual, unless that costs too much of the view.
     let (focal_px, centers) =
         around_principal_points(&outlines, &centers, focal_px, &new_size, options.alpha)
-            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * seen.framing.0)
-            .unwrap_or(seen.framing);
+            .filter(|(focal_px, _)| *focal_px <= LARGEST_CROP * visible.framing.0)
+            .unwrap_or(visible.framing);
     let new_intrinsics = |c: &Vector2<f64>| Intrinsics::new(focal_px, focal_px, c.x, c.y);
     let intrinsics = [new_intrinsics(&centers[0])?, new_intrinsics(&centers[1])?];
     let homographies = [0, 1].map(|i| {
@@ -128,7 +128,7 @@ pub fn rectify_calibrated(
         intrinsics[i].matrix() * rect_from_cam[i].matrix() * k_inverse
     });
     let valid = [0, 1].map(|i| {
-        let rect = seen.inner[i].scaled(focal_px, &centers[i]);
+        let rect = visible.inner[i].scaled(focal_px, &centers[i]);
         PixelRect {
             u_min: rect.u_min.max(0.0),
             v_min: rect.v_min.max(0.0),
@@ -144,11 +144,11 @@ pub fn rectify_calibrated(
         q: q_matrix(
             focal_px,
             &centers[0],
-            turned.translation[axis],
+            parallel.translation[axis],
             centers[0][axis] - centers[1][axis],
         ),
-        is_vertical: turned.is_vertical,
-        baseline_m: turned.translation.norm(),
+        is_vertical: parallel.is_vertical,
+        baseline_m: parallel.translation.norm(),
         width: new_width,
         height: new_height,
         valid,

@@ -53,10 +53,10 @@ pub(super) fn inscribed(
                 break;
             }
             let tall = level(last) - level(first);
-            let share = (narrowest / (new_size[across] - 1.0)).min(tall / (new_size[along] - 1.0));
-            if share > best.0 {
+            let ratio = (narrowest / (new_size[across] - 1.0)).min(tall / (new_size[along] - 1.0));
+            if ratio > best.0 {
                 let levels = [level(first), level(last)];
-                best = (share, Some((levels, ranges)));
+                best = (ratio, Some((levels, ranges)));
             }
         }
     }
@@ -83,8 +83,8 @@ impl Outline {
             if before * after > 0.0 || before == after {
                 continue;
             }
-            let share = before / (before - after);
-            let at = from[1 - along] + share * (to[1 - along] - from[1 - along]);
+            let fraction = before / (before - after);
+            let at = from[1 - along] + fraction * (to[1 - along] - from[1 - along]);
             range = [range[0].min(at), range[1].max(at)];
         }
         range

@@ -32,7 +32,7 @@ fn motion(rotation: [f64; 3], translation: [f64; 3]) -> RigidTransform {
     )
 }
 
-fn photograph(camera: &Camera, x_in_cam: &Point3<f64>) -> Point2<f64> {
+fn project(camera: &Camera, x_in_cam: &Point3<f64>) -> Point2<f64> {
     camera.project(x_in_cam).unwrap()
 }
 
@@ -90,10 +90,10 @@ fn matches_share_a_line_and_q_gives_them_back() {
                 }
                 tested += 1;
                 let [p1, p2] = [(0, x1), (1, x2)].map(|(i, x)| {
-                    let seen = photograph(&cameras[i], &x);
-                    let p = rig.rectify_pixel(i, &seen).unwrap();
+                    let pixel = project(&cameras[i], &x);
+                    let p = rig.rectify_pixel(i, &pixel).unwrap();
                     let back = rig.source_pixel(i, &p).unwrap().unwrap();
-                    assert!((back - seen).norm() < 1e-7);
+                    assert!((back - pixel).norm() < 1e-7);
                     p
                 });
                 let d = p1 - p2;
@@ -170,8 +170,8 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
                     }
                     let x1 = Point3::new(0.1, -0.2, 9.0);
                     let x2 = cam2_from_cam1 * x1;
-                    let p1 = rig.rectify_pixel(0, &photograph(&lens, &x1)).unwrap();
-                    let p2 = rig.rectify_pixel(1, &photograph(&lens, &x2)).unwrap();
+                    let p1 = rig.rectify_pixel(0, &project(&lens, &x1)).unwrap();
+                    let p2 = rig.rectify_pixel(1, &project(&lens, &x2)).unwrap();
                     let across = 1 - usize::from(rig.is_vertical);
                     assert!((p1 - p2)[across].abs() < 1e-6);
                     let d = (p1 - p2)[1 - across];
@@ -209,7 +209,7 @@ fn a_baseline_far_off_the_image_plane_is_rectified() {
 /// A model fitted to marks in the middle often folds before the corners: the rest of the image is
 /// rectified, and content beyond the fold is not shown.
 #[test]
-fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
+fn images_whose_lens_folds_before_the_corners_are_rectified() {
     let folding = |k1: f64| Camera {
         width: 800,
         height: 600,
@@ -231,15 +231,15 @@ fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
             let rig = rectify_calibrated(&cameras, &cam2_from_cam1, &options).unwrap();
             let x = Point3::new(0.1, -0.1, 2.0);
             let [a, b] = [(0, x), (1, cam2_from_cam1 * x)]
-                .map(|(i, x)| rig.rectify_pixel(i, &photograph(&cameras[i], &x)).unwrap());
+                .map(|(i, x)| rig.rectify_pixel(i, &project(&cameras[i], &x)).unwrap());
             assert!((a.y - b.y).abs() < 1e-6);
             for i in 0..2 {
                 let valid = rig.valid[i];
                 assert!(valid.u_max - valid.u_min > 100.0 && valid.v_max - valid.v_min > 100.0);
                 for n in 0..=400 {
-                    let share = |k: i32| f64::from(k) / 20.0;
-                    let u = valid.u_min + share(n % 21) * (valid.u_max - valid.u_min);
-                    let v = valid.v_min + share(n / 21) * (valid.v_max - valid.v_min);
+                    let fraction = |k: i32| f64::from(k) / 20.0;
+                    let u = valid.u_min + fraction(n % 21) * (valid.u_max - valid.u_min);
+                    let v = valid.v_min + fraction(n / 21) * (valid.v_max - valid.v_min);
                     let p = rig.source_pixel(i, &Point2::new(u, v)).unwrap();
                     let p = p.unwrap_or_else(|| panic!("{k1} {alpha}: nothing at {u}, {v}"));
                     assert!((-0.1..799.1).contains(&p.x) && (-0.1..599.1).contains(&p.y));
@@ -263,7 +263,7 @@ fn photographs_whose_lens_folds_before_the_corners_are_rectified() {
 /// A second camera above and beside the first, or one of the two rolled: the rectified images are
 /// slanted, yet a good part of them is visible, at any angle.
 #[test]
-fn photographs_that_stand_slanted_are_rectified() {
+fn slanted_cameras_are_rectified() {
     let lens = camera(800.0, 800.0, 399.5, 299.5, [-0.1, 0.02, 0.0, 0.0, 0.0]);
     for slant_deg in (0..=360).step_by(9) {
         let slant = f64::from(slant_deg).to_radians();
@@ -291,9 +291,9 @@ fn photographs_that_stand_slanted_are_rectified() {
                     let valid = rig.valid[i];
                     assert!(valid.u_max > valid.u_min && valid.v_max > valid.v_min);
                     for k in 0..=20 {
-                        let share = f64::from(k) / 20.0;
-                        let u = valid.u_min + share * (valid.u_max - valid.u_min);
-                        let v = valid.v_min + share * (valid.v_max - valid.v_min);
+                        let fraction = f64::from(k) / 20.0;
+                        let u = valid.u_min + fraction * (valid.u_max - valid.u_min);
+                        let v = valid.v_min + fraction * (valid.v_max - valid.v_min);
                         for (u, v) in [
                             (u, valid.v_min),
                             (u, valid.v_max),
@@ -309,8 +309,8 @@ fn photographs_that_stand_slanted_are_rectified() {
                 }
                 let x1 = Point3::new(0.05, -0.1, 2.0);
                 let x2 = cam2_from_cam1 * x1;
-                let p1 = rig.rectify_pixel(0, &photograph(&lens, &x1)).unwrap();
-                let p2 = rig.rectify_pixel(1, &photograph(&lens, &x2)).unwrap();
+                let p1 = rig.rectify_pixel(0, &project(&lens, &x1)).unwrap();
+                let p2 = rig.rectify_pixel(1, &project(&lens, &x2)).unwrap();
                 let across = 1 - usize::from(rig.is_vertical);
                 assert!((p1 - p2)[across].abs() < 1e-5, "{slant_deg}°");
             }
@@ -319,7 +319,7 @@ fn photographs_that_stand_slanted_are_rectified() {
 }
 
 #[test]
-fn alpha_zero_shows_only_what_was_seen_and_one_shows_all() {
+fn alpha_zero_shows_only_source_pixels_and_one_shows_all() {
     let cam2_from_cam1 = motion([0.0141, -0.0004, -0.0023], [-0.11, 0.0004, -0.0009]);
     let mut options = RectifyOptions::default();
     let tight = rectify_calibrated(&wide_rig(), &cam2_from_cam1, &options).unwrap();
@@ -421,13 +421,13 @@ fn rigs_of_any_lens_are_rectified() {
         for _ in 0..500 {
             let mut to = |reach: f64| random.uniform(-reach, reach);
             let x = Point3::new(to(2.5), to(2.0), 2.0 + to(1.0));
-            let seen = [x, cam2_from_cam1 * x].map(|x| {
+            let pixels = [x, cam2_from_cam1 * x].map(|x| {
                 let pixel = camera.project(&x);
                 let inside =
                     |p: &Point2<f64>| (0.0..600.0).contains(&p.x) && (0.0..400.0).contains(&p.y);
                 pixel.ok().filter(inside)
             });
-            let [Some(first), Some(second)] = seen else {
+            let [Some(first), Some(second)] = pixels else {
                 continue;
             };
             let [Ok(a), Ok(b)] = [(0, first), (1, second)].map(|(i, p)| rig.rectify_pixel(i, &p))
@@ -436,10 +436,10 @@ fn rigs_of_any_lens_are_rectified() {
             };
             assert!((a.y - b.y).abs() < 1e-6, "{kind:?}");
             let place = rig.q * Vector4::new(a.x, a.y, a.x - b.x, 1.0);
-            let turned = rig.rect_from_cam[0] * x;
+            let rotated = rig.rect_from_cam[0] * x;
             let found = Point3::from(place.xyz() / place.w);
             assert!(
-                (found - turned).norm() < 1e-6 * turned.coords.norm(),
+                (found - rotated).norm() < 1e-6 * rotated.coords.norm(),
                 "{kind:?}"
             );
             let back = rig.source_pixel(0, &a).unwrap().unwrap();

@@ -14,13 +14,14 @@ fn world(focal_px: f64, noise_px: f64) -> (Vec<Matrix3<f64>>, Vec<Overlap>) {
             let yaw = 0.35 * f64::from(n % 3);
             let pitch = 0.3 * f64::from(n / 3);
             let roll = 0.02 * f64::from(n);
-            let turn = |axis: Vector3<f64>| Rotation3::from_scaled_axis(axis);
-            let turn =
-                turn(Vector3::z() * roll) * turn(Vector3::x() * pitch) * turn(Vector3::y() * -yaw);
-            turn.into_inner()
+            let rotate = |axis: Vector3<f64>| Rotation3::from_scaled_axis(axis);
+            let rotate = rotate(Vector3::z() * roll)
+                * rotate(Vector3::x() * pitch)
+                * rotate(Vector3::y() * -yaw);
+            rotate.into_inner()
         })
         .collect();
-    let seen = |rotation: &Matrix3<f64>, x: &Vector3<f64>| -> Option<Point2<f64>> {
+    let project = |rotation: &Matrix3<f64>, x: &Vector3<f64>| -> Option<Point2<f64>> {
         let p = k.project(&(rotation * x).into()).ok()?;
         let inside = p.x > 0.0 && p.y > 0.0 && p.x < SIZE.0 && p.y < SIZE.1;
         inside.then_some(p)
@@ -31,7 +32,8 @@ fn world(focal_px: f64, noise_px: f64) -> (Vec<Matrix3<f64>>, Vec<Overlap>) {
             let mut pixels = [Vec::new(), Vec::new()];
             for _ in 0..4000 {
                 let x = Vector3::from_fn(|_, _| random.normal());
-                if let (Some(p), Some(q)) = (seen(&rotations[a], &x), seen(&rotations[b], &x)) {
+                if let (Some(p), Some(q)) = (project(&rotations[a], &x), project(&rotations[b], &x))
+                {
                     for (list, p) in pixels.iter_mut().zip([p, q]) {
                         let noise = [random.normal(), random.normal()].map(|x| noise_px * x);
                         list.push(Point2::new(p.x + noise[0], p.y + noise[1]));
@@ -81,7 +83,7 @@ fn rotations_and_focal_length_are_found_from_a_wrong_guess() {
 }
 
 #[test]
-fn a_known_focal_length_is_kept() {
+fn a_known_focal_length_is_unchanged() {
     let (truth, overlaps) = world(560.0, 0.0);
     let tree = largest_tree(6, &overlaps).unwrap();
     let known = vec![Intrinsics::centered(560.0, 640, 480).unwrap(); 6];

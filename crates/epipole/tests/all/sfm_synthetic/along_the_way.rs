@@ -1,6 +1,6 @@
 //! Progress reports while a reconstruction grows, early ends, and refused input.
 
-use super::world::{Making, arc, ball, errors, intrinsics, photograph, run};
+use super::world::{Making, arc, ball, errors, intrinsics, observe, run};
 use epipole::Error;
 use epipole::camera::Camera;
 use epipole::progress::{Stage, Status};
@@ -13,9 +13,9 @@ use std::ops::ControlFlow;
 #[test]
 fn steps_add_one_image_each_and_lead_to_the_same() {
     let center = Point3::new(0.0, 0.0, 6.0);
-    let world = photograph(arc(7, center), &ball(150, center, 5), Making::default(), 5);
+    let world = observe(arc(7, center), &ball(150, center, 5), Making::default(), 5);
     let options = SfmOptions::default();
-    let mut seen = Vec::new();
+    let mut counts = Vec::new();
     let mut steps = Vec::new();
     let mut growing = start(&world.input, &options);
     while let Some(step) = growing.step(&mut ()).expect("a step") {
@@ -28,15 +28,15 @@ fn steps_add_one_image_each_and_lead_to_the_same() {
             (so_far.points.iter())
                 .all(|point| point.track.len() >= 2 && point.error_px.is_finite())
         );
-        seen.push((so_far.num_registered(), so_far.points.len()));
+        counts.push((so_far.num_registered(), so_far.points.len()));
     }
     let found = growing.finish();
     assert!(found.is_complete);
     assert_eq!(found.steps, steps);
     assert_eq!(found, run(&world, &options));
-    let registered: Vec<usize> = seen.iter().map(|(registered, _)| *registered).collect();
+    let registered: Vec<usize> = counts.iter().map(|(registered, _)| *registered).collect();
     assert_eq!(registered, [2, 3, 4, 5, 6, 7]);
-    assert!(seen[0].1 > 20 && seen[5].1 >= seen[0].1, "{seen:?}");
+    assert!(counts[0].1 > 20 && counts[5].1 >= counts[0].1, "{counts:?}");
     // Early end by the caller.
     let mut growing = start(&world.input, &options);
     for _ in 0..3 {
@@ -53,7 +53,7 @@ fn start(input: &SfmInput, options: &SfmOptions) -> IncrementalReconstruction {
 
 #[test]
 fn canceling_leaves_a_valid_part() {
-    let world = photograph(
+    let world = observe(
         arc(7, Point3::origin()),
         &ball(150, Point3::origin(), 11),
         Making::default(),
@@ -90,29 +90,32 @@ fn canceling_leaves_a_valid_part() {
 }
 
 #[test]
-fn progress_names_stages_and_shares_that_rise() {
-    let world = photograph(
+fn progress_names_stages_and_fractions_that_rise() {
+    let world = observe(
         arc(5, Point3::origin()),
         &ball(120, Point3::origin(), 11),
         Making::default(),
         12,
     );
     let options = SfmOptions::default();
-    let mut told: Vec<Status> = Vec::new();
+    let mut reports: Vec<Status> = Vec::new();
     let mut watch = |status| {
-        told.push(status);
+        reports.push(status);
         ControlFlow::Continue(())
     };
     let watched = reconstruct(&world.input, &options, &mut watch);
     assert_eq!(watched.expect("a result"), run(&world, &options));
-    assert!(told.is_sorted_by_key(|status| status.share));
-    assert!(told[told.len() - 1].share == 1.0);
+    assert!(reports.is_sorted_by_key(|status| status.fraction));
+    assert!(reports[reports.len() - 1].fraction == 1.0);
     for stage in [
         Stage::PairVerification,
         Stage::Registration,
         Stage::BundleAdjustment,
     ] {
-        assert!(told.iter().any(|status| status.stage == stage), "{stage:?}");
+        assert!(
+            reports.iter().any(|status| status.stage == stage),
+            "{stage:?}"
+        );
     }
     let mut stop = |status: Status| match status.stage {
         Stage::PairVerification => ControlFlow::Continue(()),
@@ -126,8 +129,8 @@ fn progress_names_stages_and_shares_that_rise() {
 }
 
 #[test]
-fn photographs_without_overlap_give_nothing_and_no_error() {
-    let mut world = photograph(
+fn images_without_overlap_give_nothing_and_no_error() {
+    let mut world = observe(
         arc(3, Point3::origin()),
         &ball(80, Point3::origin(), 13),
         Making::default(),
@@ -141,7 +144,7 @@ fn photographs_without_overlap_give_nothing_and_no_error() {
         wrong: 1.0,
         ..Making::default()
     };
-    let world = photograph(
+    let world = observe(
         arc(3, Point3::origin()),
         &ball(80, Point3::origin(), 13),
         making,
@@ -164,7 +167,7 @@ fn photographs_without_overlap_give_nothing_and_no_error() {
 
 #[test]
 fn bad_input_is_refused() {
-    let world = photograph(
+    let world = observe(
         arc(3, Point3::origin()),
         &ball(60, Point3::origin(), 16),
         Making::default(),

@@ -1,6 +1,6 @@
 //! Points from matches of photographs with known poses.
 
-use super::world::{Making, World, arc, ball, photograph};
+use super::world::{Making, World, arc, ball, observe};
 use epipole::Error;
 use epipole::camera::RigidTransform;
 use epipole::sfm::{SfmOptions, triangulate_tracks};
@@ -20,7 +20,7 @@ fn points_are_at_their_places_in_the_world_of_the_poses() {
         wrong: 0.25,
         ..Making::default()
     };
-    let world = photograph(arc(6, Point3::origin()), &points, making, 4);
+    let world = observe(arc(6, Point3::origin()), &points, making, 4);
     let found = triangulate_tracks(
         &world.input,
         &poses(&world),
@@ -49,9 +49,9 @@ fn points_are_at_their_places_in_the_world_of_the_poses() {
 }
 
 #[test]
-fn photographs_without_a_pose_and_poses_of_others_give_no_points() {
+fn images_without_a_pose_and_poses_of_others_give_no_points() {
     let points = ball(200, Point3::origin(), 5);
-    let world = photograph(arc(5, Point3::origin()), &points, Making::default(), 6);
+    let world = observe(arc(5, Point3::origin()), &points, Making::default(), 6);
     let options = SfmOptions::default();
     let mut known = poses(&world);
     known[2] = None;
@@ -79,7 +79,7 @@ fn photographs_without_a_pose_and_poses_of_others_give_no_points() {
 
 #[test]
 fn input_that_is_no_such_problem_is_refused() {
-    let world = photograph(
+    let world = observe(
         arc(3, Point3::origin()),
         &ball(30, Point3::origin(), 7),
         Making::default(),

@@ -1,6 +1,6 @@
 //! The path of a camera, and of a stereo rig, against the truth.
 
-use super::world::{Making, World, ball, errors, intrinsics, photograph};
+use super::world::{Making, World, ball, errors, intrinsics, observe};
 use epipole::Error;
 use epipole::camera::{Camera, PosedCamera, RigidTransform};
 use epipole::feature::Match;
@@ -23,16 +23,18 @@ fn drive(frames: usize, making: Making) -> (World, Vec<Point3<f64>>) {
     let cameras = (0..frames)
         .map(|i| {
             let along = 0.5 * i as f64;
-            let turn = Vector3::new(0.0, 0.01 * i as f64, 0.0);
-            let world_from_cam =
-                RigidTransform::new(Vector3::new(0.02 * along * along, 0.0, along), turn);
+            let rotation_vector = Vector3::new(0.0, 0.01 * i as f64, 0.0);
+            let world_from_cam = RigidTransform::new(
+                Vector3::new(0.02 * along * along, 0.0, along),
+                rotation_vector,
+            );
             PosedCamera {
                 camera: Camera::pinhole(intrinsics(), 640, 480),
                 cam_from_world: world_from_cam.inverse(),
             }
         })
         .collect();
-    (photograph(cameras, &points, making, 32), points)
+    (observe(cameras, &points, making, 32), points)
 }
 
 #[test]
@@ -64,7 +66,7 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
     };
     let (moving, points) = drive(8, making);
     let cameras = moving.cameras.iter().flat_map(|camera| [*camera; 4]);
-    let world = photograph(cameras.collect(), &points, making, 36);
+    let world = observe(cameras.collect(), &points, making, 36);
     let result =
         monocular_odometry(&world.input, &OdometryOptions::default(), &mut ()).expect("a path");
     assert!(result.lost.is_empty());
@@ -86,8 +88,10 @@ fn a_camera_that_waits_gets_no_keyframes_meanwhile() {
     let angle_deg = (result.reconstruction.cameras.iter().flatten())
         .zip(&world.cameras)
         .map(|(got, want)| {
-            let turned = got.cam_from_world.rotation;
-            turned.angle_to(&want.cam_from_world.rotation).to_degrees()
+            let rotation = got.cam_from_world.rotation;
+            rotation
+                .angle_to(&want.cam_from_world.rotation)
+                .to_degrees()
         })
         .fold(0.0, f64::max);
     // One percent of the four meters.
@@ -115,7 +119,7 @@ fn a_stereo_rig_is_followed_in_meters() {
             ..*camera
         })
         .collect();
-    let right = photograph(right_cameras, &points, making, 33);
+    let right = observe(right_cameras, &points, making, 33);
     // Points carry their number in a color; that is how the test matches left and right.
     let left_right: Vec<Vec<Match>> = left
         .input
@@ -169,7 +173,7 @@ fn a_stereo_rig_is_followed_in_meters() {
 }
 
 #[test]
-fn a_camera_that_only_turns_has_no_path() {
+fn a_camera_that_only_rotates_has_no_path() {
     let cameras = (0..6)
         .map(|i| PosedCamera {
             camera: Camera::pinhole(intrinsics(), 640, 480),
@@ -184,7 +188,7 @@ fn a_camera_that_only_turns_has_no_path() {
         noise_px: 0.1,
         ..Making::default()
     };
-    let world = photograph(cameras, &points, making, 35);
+    let world = observe(cameras, &points, making, 35);
     let result = monocular_odometry(&world.input, &OdometryOptions::default(), &mut ());
     assert!(
         matches!(result, Err(Error::Degenerate { .. })),

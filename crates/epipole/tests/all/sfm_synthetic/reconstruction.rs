@@ -1,6 +1,6 @@
 //! Reconstructions against the ground truth.
 
-use super::world::{Making, World, arc, ball, errors, photograph, run};
+use super::world::{Making, World, arc, ball, errors, observe, run};
 use epipole::camera::{Camera, Distortion, Intrinsics};
 use epipole::math::random::Random;
 use epipole::sfm::{
@@ -20,7 +20,7 @@ fn exact_chained_matches_give_the_exact_cameras() {
         reach: 1,
         ..Making::default()
     };
-    let world = photograph(
+    let world = observe(
         arc(7, Point3::origin()),
         &ball(150, Point3::origin(), 1),
         making,
@@ -54,7 +54,7 @@ fn noise_and_wrong_matches_cost_little() {
         wrong: 0.25,
         ..Making::default()
     };
-    let world = photograph(
+    let world = observe(
         arc(8, Point3::origin()),
         &ball(400, Point3::origin(), 3),
         making,
@@ -87,7 +87,7 @@ fn focal_length_and_distortion_are_found() {
         distortion,
         ..Making::default()
     };
-    let mut world = photograph(
+    let mut world = observe(
         arc(8, Point3::origin()),
         &ball(250, Point3::origin(), 5),
         making,
@@ -140,7 +140,7 @@ fn each_lens_has_its_own_focal_length_and_distortion() {
             },
             ..Making::default()
         };
-        let taken = photograph(cameras, &points, making, 6).input;
+        let taken = observe(cameras, &points, making, 6).input;
         if lens == 0 {
             world.input = taken;
         } else {
@@ -187,7 +187,7 @@ fn known_positions_place_the_result() {
         noise_px: 0.3,
         ..Making::default()
     };
-    let mut world = photograph(
+    let mut world = observe(
         arc(9, Point3::origin()),
         &ball(250, Point3::origin(), 5),
         making,
@@ -241,7 +241,7 @@ fn known_positions_place_the_result() {
 #[test]
 fn points_that_few_saw_can_be_left_out() {
     let center = Point3::origin();
-    let world = photograph(
+    let world = observe(
         arc(6, center),
         &ball(150, center, 5),
         Making {
@@ -267,9 +267,9 @@ fn points_that_few_saw_can_be_left_out() {
 
 /// If nothing is left of any start, the reconstruction ends and gives the reason.
 #[test]
-fn points_that_more_cameras_should_see_than_there_are_leave_nothing() {
+fn too_few_cameras_per_point_leave_nothing() {
     let center = Point3::origin();
-    let world = photograph(arc(4, center), &ball(150, center, 5), Making::default(), 5);
+    let world = observe(arc(4, center), &ball(150, center, 5), Making::default(), 5);
     let options = SfmOptions::default().with_min_track_length(5);
     let result = run(&world, &options);
     assert!(result.components.is_empty());
@@ -289,7 +289,7 @@ fn what_does_not_connect_makes_components() {
     let mut points = ball(120, here, 7);
     points.extend(ball(120, there, 8));
     points.extend(ball(50, nowhere, 9));
-    let world = photograph(cameras, &points, Making::default(), 10);
+    let world = observe(cameras, &points, Making::default(), 10);
     let result = run(&world, &SfmOptions::default());
     let sizes: Vec<_> = result
         .components

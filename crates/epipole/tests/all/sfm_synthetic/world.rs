@@ -36,7 +36,7 @@ impl Default for Making {
     }
 }
 
-pub(crate) fn photograph(
+pub(crate) fn observe(
     cameras: Vec<PosedCamera>,
     points: &[Point3<f64>],
     making: Making,
@@ -157,8 +157,12 @@ pub(crate) fn errors(world: &World, cameras: &[Option<PosedCamera>]) -> (f64, f6
     for (got, want) in found.iter().zip(&truth) {
         let center = align * got.center_in_world();
         distance = distance.max((center - want.center_in_world()).norm());
-        let turned = got.cam_from_world.rotation * align.isometry.rotation.inverse();
-        angle = angle.max(turned.angle_to(&want.cam_from_world.rotation).to_degrees());
+        let rotation = got.cam_from_world.rotation * align.isometry.rotation.inverse();
+        angle = angle.max(
+            rotation
+                .angle_to(&want.cam_from_world.rotation)
+                .to_degrees(),
+        );
     }
     (distance, angle)
 }

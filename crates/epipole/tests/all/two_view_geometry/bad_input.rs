@@ -70,9 +70,9 @@ fn check_two_view(report: &TwoViewReport, num_matches: usize, options: &TwoViewO
     if let Some(motion) = &report.cam2_from_cam1 {
         check_rotation(motion.rotation.to_rotation_matrix().matrix());
         let length = motion.translation.vector.norm();
-        let turned = matches!(report.configuration, Configuration::Panoramic);
+        let is_panoramic = matches!(report.configuration, Configuration::Panoramic);
         assert!(length == 0.0 || (length - 1.0).abs() < 1e-9, "{length}");
-        assert!(!turned || length == 0.0, "{length}");
+        assert!(!is_panoramic || length == 0.0, "{length}");
     }
     if let Some(angle) = report.median_triangulation_angle_rad {
         assert!((0.0..=std::f64::consts::PI).contains(&angle), "{angle}");
@@ -81,7 +81,7 @@ fn check_two_view(report: &TwoViewReport, num_matches: usize, options: &TwoViewO
 
 /// Every estimator on one pair of lists: no panic, no endless loop, and whatever is found is what
 /// it is said to be.
-fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
+fn errors_of_all(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
     let k = intrinsics(600.0);
     let budget = RansacOptions::default().with_max_iterations(500);
     let points: Vec<_> = p1.iter().map(|p| Point3::new(p.x, p.y, 900.0)).collect();
@@ -136,7 +136,7 @@ fn try_everything(p1: &Points, p2: &Points) -> Vec<Option<Error>> {
                 };
                 let errors: Vec<f64> = (points.iter().zip(p2))
                     .map(|(point, pixel)| match camera.project(point) {
-                        Ok(seen) => (seen - pixel).norm(),
+                        Ok(projected) => (projected - pixel).norm(),
                         Err(_) => f64::INFINITY,
                     })
                     .collect();
@@ -175,7 +175,7 @@ fn bad_input_is_an_error_for_everyone() {
         (&b, &bad),
         (&a, &b[..30].to_vec()),
     ] {
-        for error in try_everything(p1, p2) {
+        for error in errors_of_all(p1, p2) {
             let sentence = error.expect("bad input must be refused").to_string();
             assert!(sentence.len() > 10);
         }
@@ -184,13 +184,13 @@ fn bad_input_is_an_error_for_everyone() {
     let line: Points = (0..40)
         .map(|i| Point2::new(f64::from(i) * 7.0, 2.0 * f64::from(i)))
         .collect();
-    let errors = try_everything(&line, &line);
+    let errors = errors_of_all(&line, &line);
     for (i, name) in ["F", "H", "E"].iter().enumerate() {
         assert!(errors[i].is_some(), "{name}");
     }
     assert!(errors[3].is_none());
     // One image on a line only.
-    let errors = try_everything(&line, &a);
+    let errors = errors_of_all(&line, &a);
     assert!(errors[0].is_some() && errors[2].is_some());
 }
 

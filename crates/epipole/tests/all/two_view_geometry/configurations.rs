@@ -56,14 +56,22 @@ fn configurations_are_recognized() {
                     estimate_two_view(&s.p1, &s.p2, &options, &mut ()).unwrap(),
                 )
             };
-            let told = format!("{max_error_px} px, noise {noise_px} px, seed {seed}");
+            let context = format!("{max_error_px} px, noise {noise_px} px, seed {seed}");
             let close = |motion: &RigidTransform, truth: &RigidTransform| {
                 rotation_error(motion, truth) < 0.03 && direction_error(motion, truth) < 0.1
             };
             let general = scene(&mut random, pair, Shape::Volume, 200, true_ratio, noise_px);
             let (calibrated, uncalibrated) = two_view(&general);
-            assert_eq!(calibrated.configuration, Configuration::General, "{told}");
-            assert_eq!(uncalibrated.configuration, Configuration::General, "{told}");
+            assert_eq!(
+                calibrated.configuration,
+                Configuration::General,
+                "{context}"
+            );
+            assert_eq!(
+                uncalibrated.configuration,
+                Configuration::General,
+                "{context}"
+            );
             let motion = calibrated.cam2_from_cam1.unwrap();
             let truth = general.motion();
             generals += usize::from(close(&motion, &truth));
@@ -77,38 +85,53 @@ fn configurations_are_recognized() {
             };
             assert!(
                 close(&motion, &truth) || misfit(&motion) < misfit(&truth),
-                "{told}"
+                "{context}"
             );
             assert_eq!(calibrated.other_cam2_from_cam1, None);
 
             let plane = scene(&mut random, pair, Shape::Plane, 200, true_ratio, noise_px);
             let (calibrated, uncalibrated) = two_view(&plane);
-            assert_eq!(calibrated.configuration, Configuration::Planar, "{told}");
-            assert_eq!(uncalibrated.configuration, Configuration::Planar, "{told}");
+            assert_eq!(calibrated.configuration, Configuration::Planar, "{context}");
+            assert_eq!(
+                uncalibrated.configuration,
+                Configuration::Planar,
+                "{context}"
+            );
             let motions = [calibrated.cam2_from_cam1, calibrated.other_cam2_from_cam1];
             let truth = plane.motion();
             planes += 1;
             one_of_two += usize::from(motions.iter().flatten().any(|m| close(m, &truth)));
 
-            let mut turned = pair;
-            let center = turned.0.center_in_world();
-            turned.1.cam_from_world.translation.vector =
-                -(turned.1.cam_from_world.rotation * center.coords);
-            let turn = scene(
+            let mut rotated = pair;
+            let center = rotated.0.center_in_world();
+            rotated.1.cam_from_world.translation.vector =
+                -(rotated.1.cam_from_world.rotation * center.coords);
+            let rotation_only = scene(
                 &mut random,
-                turned,
+                rotated,
                 Shape::Volume,
                 200,
                 true_ratio,
                 noise_px,
             );
-            let (calibrated, uncalibrated) = two_view(&turn);
-            assert_eq!(calibrated.configuration, Configuration::Panoramic, "{told}");
+            let (calibrated, uncalibrated) = two_view(&rotation_only);
+            assert_eq!(
+                calibrated.configuration,
+                Configuration::Panoramic,
+                "{context}"
+            );
             let motion = calibrated.cam2_from_cam1.unwrap();
             assert_eq!(motion.translation.vector, Vector3::zeros());
-            assert!(rotation_error(&motion, &turn.motion()) < 0.005, "{told}");
+            assert!(
+                rotation_error(&motion, &rotation_only.motion()) < 0.005,
+                "{context}"
+            );
             // Without intrinsics a rotation looks like a plane.
-            assert_eq!(uncalibrated.configuration, Configuration::Planar, "{told}");
+            assert_eq!(
+                uncalibrated.configuration,
+                Configuration::Planar,
+                "{context}"
+            );
         }
     }
     println!("of {planes} planes one of two motions was right for {one_of_two}");
@@ -119,7 +142,7 @@ fn configurations_are_recognized() {
 /// Matches that have nothing to do with one another agree by the dozen if there are thousands of
 /// them; that is no pair.
 #[test]
-fn chance_is_no_pair() {
+fn random_matches_are_no_pair() {
     let k = intrinsics(600.0);
     for (count, max_error_px) in [(30, 4.0), (100, 1.0), (300, 2.0), (1000, 1.0), (3000, 4.0)] {
         for seed in 0..3 {
@@ -150,17 +173,17 @@ fn chance_is_no_pair() {
             assert!(
                 estimate_fundamental(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
-                    .could_be_chance()
+                    .could_be_random()
             );
             assert!(
                 estimate_homography(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
-                    .could_be_chance()
+                    .could_be_random()
             );
             assert!(
                 estimate_similarity(&a, &b, &choice.ransac, &mut ())
                     .unwrap()
-                    .could_be_chance()
+                    .could_be_random()
             );
             let points: Vec<_> = a
                 .iter()
@@ -173,7 +196,7 @@ fn chance_is_no_pair() {
                 &choice.ransac,
                 &mut (),
             );
-            assert!(pose.is_err() || pose.unwrap().could_be_chance());
+            assert!(pose.is_err() || pose.unwrap().could_be_random());
         }
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point2, Point3, Vector3};
 #[test]
 fn a_dominant_plane_does_not_mislead() {
     let (all, most) = (1.0, 0.8);
-    for (share_on_plane, count, true_ratio, noise_px) in [
+    for (plane_ratio, count, true_ratio, noise_px) in [
         (0.5, 300, most, 0.3),
         (0.9, 300, all, 0.3),
         (0.9, 300, most, 0.3),
@@ -30,7 +30,7 @@ fn a_dominant_plane_does_not_mislead() {
         for seed in 0..40 {
             let mut random = Random::new(seed);
             let pair = cameras(&mut random);
-            let shape = Shape::Mostly(share_on_plane);
+            let shape = Shape::Mostly(plane_ratio);
             let s = scene(&mut random, pair, shape, count, true_ratio, noise_px);
             let report = estimate_fundamental(&s.p1, &s.p2, &options(seed), &mut ()).unwrap();
             let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
@@ -51,7 +51,7 @@ fn a_dominant_plane_does_not_mislead() {
         }
         assert!(
             wrong.is_empty(),
-            "{share_on_plane} of {count} on the plane, {true_ratio} true, {noise_px} px: {wrong:?}"
+            "{plane_ratio} of {count} on the plane, {true_ratio} true, {noise_px} px: {wrong:?}"
         );
     }
 }
@@ -248,7 +248,7 @@ fn a_good_order_saves_samples() {
 /// draw the epipole there.
 #[test]
 fn a_crowded_pixel_has_few_votes() {
-    for (share_crowded, seed) in (0..10).flat_map(|seed| [(0.3, seed), (0.5, seed), (0.6, seed)]) {
+    for (crowded_ratio, seed) in (0..10).flat_map(|seed| [(0.3, seed), (0.5, seed), (0.6, seed)]) {
         let mut random = Random::new(seed);
         let pair = cameras(&mut random);
         let mut s = scene(
@@ -256,7 +256,7 @@ fn a_crowded_pixel_has_few_votes() {
             pair,
             Shape::Volume,
             200,
-            1.0 - share_crowded,
+            1.0 - crowded_ratio,
             0.5,
         );
         let num_true = s.truth.iter().filter(|&&is_true| is_true).count();
@@ -281,9 +281,9 @@ fn a_crowded_pixel_has_few_votes() {
         for inliers in [&f.inliers, &e.inliers] {
             let found = inliers.iter().zip(&s.truth).filter(|(a, b)| **a && **b);
             let found = found.count();
-            assert!(10 * found > 8 * num_true, "{share_crowded} {seed}: {found}");
+            assert!(10 * found > 8 * num_true, "{crowded_ratio} {seed}: {found}");
         }
-        assert!(f.num_unique_inliers <= num_true + 1 && !f.could_be_chance());
+        assert!(f.num_unique_inliers <= num_true + 1 && !f.could_be_random());
     }
     // OpenCV's issue 19639: seven matches, of which three share a pixel and two another one.
     let u = [

@@ -111,7 +111,7 @@ proptest! {
     fn invariances(
         seed in 0_u64..1000,
         factor in 0.2_f64..5.0,
-        turn in prop::array::uniform3(-3.0_f64..3.0),
+        rotation in prop::array::uniform3(-3.0_f64..3.0),
         shift in prop::array::uniform3(-50.0_f64..50.0),
     ) {
         let mut random = Random::new(seed);
@@ -119,7 +119,7 @@ proptest! {
         let s = scene(&mut random, pair, Shape::Volume, 40, 1.0, 0.0);
         let truth = fundamental_from_cameras(&s.cam1, &s.cam2).unwrap();
 
-        let motion = RigidTransform::new(Vector3::from(shift), Vector3::from(turn));
+        let motion = RigidTransform::new(Vector3::from(shift), Vector3::from(rotation));
         let moved = |c: &PosedCamera| PosedCamera {
             cam_from_world: c.cam_from_world * motion.inverse(),
             ..*c

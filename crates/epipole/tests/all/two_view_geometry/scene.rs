@@ -70,7 +70,7 @@ pub(crate) fn scene(
         let on_plane = match shape {
             Shape::Volume => false,
             Shape::Plane => true,
-            Shape::Mostly(share) => (found.p1.len() as f64) < share * num_true as f64,
+            Shape::Mostly(ratio) => (found.p1.len() as f64) < ratio * num_true as f64,
         };
         let (x, y) = (random.uniform(-1.6, 1.6), random.uniform(-1.2, 1.2));
         let z = if on_plane {

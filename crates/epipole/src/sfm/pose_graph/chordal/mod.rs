@@ -16,7 +16,7 @@ use nalgebra::{
 struct Link<const N: usize> {
     ends: (usize, usize),
     /// A, a rotation.
-    turn: SMatrix<f64, N, N>,
+    rotation: SMatrix<f64, N, N>,
     weight: f64,
 }
 
@@ -45,7 +45,7 @@ impl<'a, const N: usize> Links<'a, N> {
                 }
             }
             if !held[from] && !held[to] {
-                factor.add(to, from, &(link.turn * -link.weight));
+                factor.add(to, from, &(link.rotation * -link.weight));
             }
         }
         factor.factorize().then_some(Self {
@@ -68,10 +68,10 @@ impl<'a, const N: usize> Links<'a, N> {
             let (from, to) = link.ends;
             let b = offset(index);
             if !self.held[to] {
-                values[to] += (link.turn * known[from] + b) * link.weight;
+                values[to] += (link.rotation * known[from] + b) * link.weight;
             }
             if !self.held[from] {
-                values[from] += link.turn.tr_mul(&(known[to] - b)) * link.weight;
+                values[from] += link.rotation.tr_mul(&(known[to] - b)) * link.weight;
             }
         }
         self.factor.solve(values);
@@ -148,7 +148,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         };
         // The tangent of a similarity holds translation, rotation, then scale.
         let num_axes = if D == 3 { 2 } else { 3 };
-        let num_turns = if D == 3 { 1 } else { 3 };
+        let num_rotations = if D == 3 { 1 } else { 3 };
         let weight = |edge: usize, start: usize, count: usize| {
             let information = &self.edges[edge].information;
             let sum: f64 = (start..start + count).map(|i| information[(i, i)]).sum();
@@ -157,7 +157,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
         let links = |start: usize, count: usize| -> Vec<Link<1>> {
             let link = |(index, edge): (usize, &super::Edge<T, D>)| Link {
                 ends: (edge.from, edge.to),
-                turn: SMatrix::identity(),
+                rotation: SMatrix::identity(),
                 weight: weight(index, start, count),
             };
             self.edges.iter().enumerate().map(link).collect()
@@ -165,32 +165,32 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
         // The rows of rotations: those of `to` are those of `from`, rotated back by the
         // measurement.
-        let turns: Vec<Link<3>> = (self.edges.iter().zip(&measured).enumerate())
+        let rotation_links: Vec<Link<3>> = (self.edges.iter().zip(&measured).enumerate())
             .map(|(index, (edge, measured))| Link {
                 ends: (edge.from, edge.to),
-                turn: matrix(measured).transpose(),
-                weight: weight(index, num_axes, num_turns),
+                rotation: matrix(measured).transpose(),
+                weight: weight(index, num_axes, num_rotations),
             })
             .collect();
         report(monitor, Stage::PoseGraph, 0.0)?;
         // A landmark has no rotation.
         let is_landmark = self.is_landmark();
-        let kept: Vec<bool> = held
+        let fixed: Vec<bool> = held
             .iter()
             .zip(&is_landmark)
             .map(|(a, b)| *a || *b)
             .collect();
-        let of_turns = Links::new(&turns, &kept).ok_or_else(degenerate)?;
+        let rotation_system = Links::new(&rotation_links, &fixed).ok_or_else(degenerate)?;
         let mut rows: [Vec<Vector3<f64>>; 3] = core::array::from_fn(|row| {
             let row_of = |pose: &Similarity3<f64>| matrix(pose).row(row).transpose();
             poses.iter().map(row_of).collect()
         });
         for (done, row) in rows.iter_mut().enumerate() {
-            of_turns.solve(row, |_| Vector3::zeros());
+            rotation_system.solve(row, |_| Vector3::zeros());
             report(monitor, Stage::PoseGraph, 0.2 * (done + 1) as f32)?;
         }
         for (vertex, pose) in poses.iter_mut().enumerate() {
-            if !kept[vertex] {
+            if !fixed[vertex] {
                 let [a, b, c] = [0, 1, 2].map(|row: usize| rows[row][vertex].transpose());
                 pose.isometry.rotation = nearest_rotation(&Matrix3::from_rows(&[a, b, c]));
             }
@@ -198,7 +198,7 @@ impl<T: GraphPose<D>, const D: usize> Graph<T, D> {
 
         if D == 7 {
             let scales = links(6, 1);
-            let of_scales = Links::new(&scales, &kept).ok_or_else(degenerate)?;
+            let of_scales = Links::new(&scales, &fixed).ok_or_else(degenerate)?;
             let log = |pose: &Similarity3<f64>| SVector::<f64, 1>::new(libm::log(pose.scaling()));
             let mut logs: Vec<_> = poses.iter().map(log).collect();
             of_scales.solve(&mut logs, |edge| log(&measured[edge]));
@@ -285,10 +285,10 @@ pub struct RelativeRotation {
 /// use nalgebra::{UnitQuaternion, Vector3};
 /// // About one axis by 0.1 and 0.2; the direct edge measures 0.36: each of the three is off by
 /// // 0.02.
-/// let turn = |from, to, angle| RelativeRotation {
+/// let relative = |from, to, angle| RelativeRotation {
 ///     from, to, to_from_from: UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle),
 /// };
-/// let measured = [turn(0, 1, 0.1), turn(1, 2, 0.2), turn(0, 2, 0.36)];
+/// let measured = [relative(0, 1, 0.1), relative(1, 2, 0.2), relative(0, 2, 0.36)];
 /// let (views, errors_rad) = average_rotations(3, &measured, RobustLoss::Trivial, &mut ())?;
 /// assert!((views[2].angle() - 0.34).abs() < 1e-6);
 /// assert!(errors_rad.iter().all(|e| (e - 0.02).abs() < 1e-6));
@@ -300,7 +300,7 @@ pub fn average_rotations(
     loss: RobustLoss,
     monitor: &mut dyn Monitor,
 ) -> Result<(Vec<UnitQuaternion<f64>>, Vec<f64>)> {
-    let turned = |rotation| Isometry3::from_parts(Translation3::identity(), rotation);
+    let rotated = |rotation| Isometry3::from_parts(Translation3::identity(), rotation);
     // The error of an edge is the sine of half the angle, so e = 2 × that.
     let information = SMatrix::<f64, 6, 6>::identity() * 4.0;
     let mut graph = Graph {
@@ -310,7 +310,7 @@ pub fn average_rotations(
             .map(|m| super::Edge {
                 from: m.from,
                 to: m.to,
-                from_from_to: turned(m.to_from_from.inverse()),
+                from_from_to: rotated(m.to_from_from.inverse()),
                 information,
             })
             .collect(),

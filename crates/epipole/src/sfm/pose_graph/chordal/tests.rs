@@ -4,13 +4,13 @@ use crate::math::random::Random;
 use crate::optim::LmOptions;
 use nalgebra::Isometry2;
 
-fn turn(random: &mut Random, size: f64) -> UnitQuaternion<f64> {
+fn random_rotation(random: &mut Random, size: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_scaled_axis(Vector3::from_fn(|_, _| size * random.normal()))
 }
 
 fn anywhere(random: &mut Random, scale: f64) -> Similarity3<f64> {
     let place = Vector3::from_fn(|_, _| random.uniform(-10.0, 10.0));
-    let rotation = turn(random, 2.0);
+    let rotation = random_rotation(random, 2.0);
     Similarity3::from_isometry(
         Isometry3::from_parts(Translation3::from(place), rotation),
         scale,
@@ -135,7 +135,7 @@ fn noise_is_shared_and_the_optimum_is_near() {
 }
 
 #[test]
-fn what_hangs_on_nothing_is_told() {
+fn vertices_without_measurements_are_reported() {
     let mut random = Random::new(3);
     let truth: Vec<_> = (0..6).map(|_| anywhere(&mut random, 1.0)).collect();
     let mut open: Graph<Isometry3<f64>, 6> = graph(&truth, 0.0, &mut random);
@@ -164,14 +164,14 @@ fn what_hangs_on_nothing_is_told() {
 #[test]
 fn rotations_are_averaged_though_some_are_wrong() {
     let mut random = Random::new(4);
-    let truth: Vec<_> = (0..30).map(|_| turn(&mut random, 1.0)).collect();
+    let truth: Vec<_> = (0..30).map(|_| random_rotation(&mut random, 1.0)).collect();
     let mut measured = Vec::new();
     for from in 0..truth.len() {
         for to in from + 1..truth.len() {
             if random.below(3) == 0 || to == from + 1 {
                 let exact = truth[to] * truth[from].inverse();
                 let wrong = to > from + 1 && random.below(10) == 0;
-                let off = turn(&mut random, if wrong { 1.0 } else { 0.005 });
+                let off = random_rotation(&mut random, if wrong { 1.0 } else { 0.005 });
                 measured.push((
                     RelativeRotation {
                         from,

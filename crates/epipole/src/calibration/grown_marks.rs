@@ -25,7 +25,7 @@ const LEAST_COLORS_AT_PX: f64 = 2.0;
 const MOST_UNEVEN: f64 = 0.6;
 
 /// Marks found so far.
-pub(super) struct NearMarks<'a> {
+pub(super) struct GrownMarks<'a> {
     image: &'a GrayImage32,
     board: &'a Board,
     /// Reach relative to a square.
@@ -36,7 +36,7 @@ pub(super) struct NearMarks<'a> {
     pixels: Vec<Option<Point2<f64>>>,
 }
 
-impl<'a> NearMarks<'a> {
+impl<'a> GrownMarks<'a> {
     pub(super) fn new(image: &'a GrayImage32, board: &'a Board, markers: &BoardMarkers) -> Self {
         Self {
             image,

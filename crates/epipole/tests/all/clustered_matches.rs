@@ -7,7 +7,7 @@ use epipole::{Result, estimate_fundamental, estimate_homography};
 use nalgebra::{Matrix3, Point2, Vector2};
 
 const NUM_MATCHES: usize = 300;
-const NUM_GATHERED: usize = 180;
+const NUM_CLUSTERED: usize = 180;
 
 struct Scene {
     p1: Vec<Point2<f64>>,
@@ -27,7 +27,7 @@ fn scene(
     let place = anywhere(&mut random);
     let p1: Vec<_> = (0..NUM_MATCHES).map(|_| anywhere(&mut random)).collect();
     let other = |(i, p): (usize, &Point2<f64>)| {
-        if i < NUM_GATHERED {
+        if i < NUM_CLUSTERED {
             let mut off = || random.uniform(-reach_px, reach_px);
             return place + Vector2::new(off(), off());
         }
@@ -46,11 +46,11 @@ fn options(seed: u64) -> RansacOptions {
 fn is_true<M>(found: &Result<RansacReport<M>>) -> bool {
     let report = found.as_ref().unwrap();
     let count = |mask: &[bool]| mask.iter().filter(|fits| **fits).count();
-    let (gathered, honest) = report.inliers.split_at(NUM_GATHERED);
-    count(honest) * 10 > honest.len() * 9 && count(gathered) * 5 < gathered.len()
+    let (clustered, honest) = report.inliers.split_at(NUM_CLUSTERED);
+    count(honest) * 10 > honest.len() * 9 && count(clustered) * 5 < clustered.len()
 }
 
-fn turned(p: &Point2<f64>, _: &mut Random) -> Point2<f64> {
+fn rotated(p: &Point2<f64>, _: &mut Random) -> Point2<f64> {
     Point2::new(0.9 * p.x - 0.2 * p.y + 30.0, 0.2 * p.x + 0.9 * p.y - 10.0)
 }
 
@@ -67,7 +67,7 @@ fn sideways(p: &Point2<f64>, random: &mut Random) -> Point2<f64> {
 fn one_place_wins_no_similarity() {
     for seed in 0..20 {
         for reach_px in [0.05, 0.2, 0.5] {
-            let Scene { p1, p2 } = scene(seed, reach_px, turned);
+            let Scene { p1, p2 } = scene(seed, reach_px, rotated);
             let found = estimate_similarity(&p1, &p2, &options(seed), &mut ());
             assert!(is_true(&found), "{seed} {reach_px} {found:?}");
         }
@@ -93,7 +93,7 @@ fn one_place_wins_no_fundamental() {
         for (p1, p2) in [(&p1, &p2), (&p2, &p1)] {
             let found = estimate_fundamental(p1, p2, &options(seed), &mut ());
             let report = found.as_ref().unwrap();
-            let honest = report.inliers[NUM_GATHERED..].iter().filter(|fits| **fits);
+            let honest = report.inliers[NUM_CLUSTERED..].iter().filter(|fits| **fits);
             assert!(honest.count() > 100, "{seed} {found:?}");
         }
     }
@@ -115,14 +115,14 @@ fn one_place_wins_with_no_threshold() {
 fn maps_to_meters_and_from_them_are_as_good() {
     for (unit, size_m) in [(1e-3, 0.6), (1e-2, 6.0), (1.0, 600.0)] {
         for seed in 0..5 {
-            let Scene { p1, p2 } = scene(seed, 0.2, turned);
+            let Scene { p1, p2 } = scene(seed, 0.2, rotated);
             let plan: Vec<_> = p2.iter().map(|p| p * unit).collect();
             let meters = options(seed).with_max_error_px(unit);
             let found = estimate_similarity(&p1, &plan, &meters, &mut ());
             assert!(is_true(&found), "{size_m} m {found:?}");
             // Only the honest ones back: in an area of millimeters each is far from the others by
             // the pixel.
-            let (from, to) = (&plan[NUM_GATHERED..], &p1[NUM_GATHERED..]);
+            let (from, to) = (&plan[NUM_CLUSTERED..], &p1[NUM_CLUSTERED..]);
             let back = estimate_similarity(from, to, &options(seed), &mut ()).unwrap();
             assert!(back.num_inliers > 110, "{size_m} m {back:?}");
         }
@@ -135,7 +135,7 @@ fn maps_to_meters_and_from_them_are_as_good() {
 fn a_picture_smaller_than_the_threshold_is_no_place() {
     let at = |i: usize| Point2::new((i * 37 % 64) as f64 / 640.0, (i * 71 % 48) as f64 / 480.0);
     let p1: Vec<_> = (0..40).map(at).collect();
-    let moved = |p: &Point2<f64>| turned(p, &mut Random::new(0));
+    let moved = |p: &Point2<f64>| rotated(p, &mut Random::new(0));
     let p2: Vec<_> = p1.iter().map(moved).collect();
     let report = estimate_similarity(&p1, &p2, &options(0), &mut ()).unwrap();
     assert!((report.model.a - 0.9).abs() < 1e-9 && report.num_inliers == 40);
@@ -146,11 +146,11 @@ fn a_picture_smaller_than_the_threshold_is_no_place() {
 /// With no other structure, a cluster does not pass as a model, and the report of the best model
 /// marks it as not significant.
 #[test]
-fn a_place_alone_is_no_model() {
-    fn says_little<M>(found: &Result<RansacReport<M>>) -> bool {
+fn a_single_image_region_is_no_model() {
+    fn is_insignificant<M>(found: &Result<RansacReport<M>>) -> bool {
         found.as_ref().map_or(true, |report| {
             let unsure = report.required_iterations > report.iterations as u64;
-            report.num_inliers < 20 && (unsure || report.could_be_chance())
+            report.num_inliers < 20 && (unsure || report.could_be_random())
         })
     }
     for seed in 0..10 {
@@ -159,8 +159,8 @@ fn a_place_alone_is_no_model() {
         };
         let Scene { p1, p2 } = scene(seed, 0.2, anywhere);
         let similarity = estimate_similarity(&p1, &p2, &options(seed), &mut ());
-        assert!(says_little(&similarity), "{seed} {similarity:?}");
+        assert!(is_insignificant(&similarity), "{seed} {similarity:?}");
         let homography = estimate_homography(&p1, &p2, &options(seed), &mut ());
-        assert!(says_little(&homography), "{seed} {homography:?}");
+        assert!(is_insignificant(&homography), "{seed} {homography:?}");
     }
 }

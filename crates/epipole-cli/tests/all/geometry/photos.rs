@@ -9,7 +9,7 @@ fn pair(folder: &Folder, motion: &RigidTransform) -> [PosedCamera; 2] {
         moved(SIZE, motion),
     ];
     for (camera, name) in cameras.iter().zip(["a.png", "b.png"]) {
-        folder.photograph(name, camera, SIZE);
+        folder.write_photo(name, camera, SIZE);
     }
     cameras
 }
@@ -48,7 +48,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 #[test]
-fn two_photographs_give_the_motion_of_the_camera() {
+fn two_photos_give_the_motion_of_the_camera() {
     let folder = Folder::new("two-view");
     let cameras = pair(&folder, &step());
     let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
@@ -63,8 +63,11 @@ fn two_photographs_give_the_motion_of_the_camera() {
             "--k",
             &camera,
         ]);
-        let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
-        assert!(turn < 0.1 && direction < 0.3, "{model}: {turn} {direction}");
+        let (angle, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
+        assert!(
+            angle < 0.1 && direction < 0.3,
+            "{model}: {angle} {direction}"
+        );
         // F may gain some matches that are wrong; the motion is that of E in any case.
         let kind = result["model_kind"].as_str().unwrap();
         assert!(
@@ -103,8 +106,8 @@ fn two_photographs_give_the_motion_of_the_camera() {
         "auto",
     ];
     let result = json(&auto);
-    let (turn, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
-    assert!(turn < 0.1 && direction < 0.3, "{turn} {direction}");
+    let (angle, direction) = errors_deg(&motion(&result["cam2_from_cam1"]), &step());
+    assert!(angle < 0.1 && direction < 0.3, "{angle} {direction}");
     // 99 of 100 Sampson errors are within it, which have a mean of 0.8 standard deviations.
     let max_error_px = result["max_error_px"].as_f64().unwrap();
     let mean_px = result["mean_sampson_px"].as_f64().unwrap();
@@ -132,7 +135,7 @@ fn two_photographs_give_the_motion_of_the_camera() {
 /// Without a given focal length, the matches determine it if the camera rolls and rises; for a step
 /// aside they do not, and the guess of 1.2 times the longer side remains.
 #[test]
-fn matches_tell_a_focal_length_that_nobody_gave() {
+fn matches_determine_an_unknown_focal_length() {
     let folder = Folder::new("two-view-focal");
     let run = |motion: &RigidTransform| {
         let cameras = pair(&folder, motion);
@@ -165,10 +168,10 @@ fn matches_tell_a_focal_length_that_nobody_gave() {
 }
 
 #[test]
-fn a_camera_that_only_turned_is_told_from_one_that_moved() {
+fn a_rotation_is_distinguished_from_a_motion() {
     let folder = Folder::new("panorama");
-    let turn = RigidTransform::new(Vector3::zeros(), Vector3::new(0.03, 0.12, -0.02));
-    let cameras = pair(&folder, &turn);
+    let rotation_only = RigidTransform::new(Vector3::zeros(), Vector3::new(0.03, 0.12, -0.02));
+    let cameras = pair(&folder, &rotation_only);
     let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
     let result = json(&["two-view", path(&a), path(&b), "--k", &k(&cameras[0])]);
     assert_eq!(result["configuration"], "panoramic");
@@ -180,25 +183,34 @@ fn a_camera_that_only_turned_is_told_from_one_that_moved() {
     }
     if !result["cam2_from_cam1"].is_null() {
         let found = motion(&result["cam2_from_cam1"]);
-        assert!(found.rotation.angle_to(&turn.rotation).to_degrees() < 0.2);
+        assert!(
+            found
+                .rotation
+                .angle_to(&rotation_only.rotation)
+                .to_degrees()
+                < 0.2
+        );
     }
 }
 
 #[test]
-fn two_photographs_from_one_place_are_told() {
+fn two_photos_from_one_place_are_reported() {
     let folder = Folder::new("still");
-    folder.photograph("a.png", &moved(SIZE, &RigidTransform::identity()), SIZE);
+    folder.write_photo("a.png", &moved(SIZE, &RigidTransform::identity()), SIZE);
     let a = folder.file("a.png");
     for model in ["auto", "fundamental", "homography"] {
         let output = epipole(&["two-view", path(&a), path(&a), "--model", model]);
-        let told = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(0), "{model}: {told}");
-        assert!(told.contains("the camera hardly moved"), "{model}: {told}");
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{model}: {stderr}");
+        assert!(
+            stderr.contains("the camera hardly moved"),
+            "{model}: {stderr}"
+        );
     }
 }
 
 #[test]
-fn pictures_without_a_common_thing_are_refused() {
+fn images_without_a_common_object_are_rejected() {
     let folder = Folder::new("two-view-bad");
     let back = RigidTransform::new(Vector3::zeros(), Vector3::new(0.0, 3.0, 0.0));
     pair(&folder, &back);
@@ -254,7 +266,7 @@ fn pictures_without_a_common_thing_are_refused() {
 }
 
 #[test]
-fn rectified_photographs_share_their_rows() {
+fn rectified_photos_share_their_rows() {
     let folder = Folder::new("rectify");
     let cameras = pair(&folder, &step());
     let [a, b] = ["a.png", "b.png"].map(|name| folder.file(name));
@@ -347,12 +359,12 @@ fn rectified_photographs_share_their_rows() {
     for known in [&[][..], &["--focal-px", "500"]] {
         let arguments = ["rectify", path(&a), path(&a), "-o", path(&out)];
         let output = epipole(&[&arguments[..], known].concat());
-        let told = String::from_utf8(output.stderr).unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
         let sentence = if known.is_empty() {
             "the camera hardly moved"
         } else {
             "a pure rotation"
         };
-        assert!(told.contains(sentence), "{told}");
+        assert!(stderr.contains(sentence), "{stderr}");
     }
 }

@@ -1,9 +1,9 @@
-//! Support of models by chance.
+//! Support of models by random data.
 
 use crate::math::order::at_rank;
 
 /// Probability that an unrelated data point fits a model, for estimators that do not provide it.
-pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
+pub(super) const UNKNOWN_PROBABILITY: f64 = 0.05;
 
 /// Returns the expected number of models with at least this support among unrelated data: a bound
 /// on the number of false alarms, as its decimal logarithm.
@@ -11,12 +11,12 @@ pub(super) const UNKNOWN_CHANCE: f64 = 0.05;
 /// * `num_inliers`, `num_data`: number of different data points that fit the model, and in total
 /// * `sample_size`: data points that determine a model; they always fit it
 /// * `max_models`: maximum number of models per sample
-/// * `chance`: probability that a data point unrelated to a model fits it, in \[0, 1\]
+/// * `random_inlier_probability`: probability that an unrelated data point fits, in \[0, 1\]
 ///
-/// Every sample is a trial, `max_models · C(n, s)` in total, and each other data point fits by
-/// chance; the tail of that binomial distribution is bounded by `exp(−m KL(k/m ‖ chance))`. Near or
-/// above 0, the support is not significant; at −10, one in 10¹⁰ data sets of this kind would show
-/// it.
+/// Every sample is a trial, `max_models · C(n, s)` in total, and each other data point fits at
+/// random; the tail of that binomial distribution is bounded by `exp(−m KL(k/m ‖ p))`, where p is
+/// `random_inlier_probability`. Near or above 0, the support is not significant; at −10, one in
+/// 10¹⁰ data sets of this kind would show it.
 ///
 /// Source: Moisan & Stival 2004, "A probabilistic criterion to detect rigid point matches between
 /// two images and estimate the fundamental matrix" (the number of false alarms); Hoeffding 1963
@@ -34,24 +34,24 @@ pub fn log10_false_alarms(
     num_data: usize,
     sample_size: usize,
     max_models: usize,
-    chance: f64,
+    random_inlier_probability: f64,
 ) -> f64 {
     let log_tries = (0..sample_size.min(num_data)).fold(libm::log(max_models as f64), |sum, i| {
         sum + libm::log((num_data - i) as f64 / (i + 1) as f64)
     });
     let others = num_data.saturating_sub(sample_size) as f64;
-    let share = num_inliers.min(num_data).saturating_sub(sample_size) as f64 / others.max(1.0);
+    let ratio = num_inliers.min(num_data).saturating_sub(sample_size) as f64 / others.max(1.0);
     // Avoid infinities for probabilities that underflow.
-    let chance = chance.clamp(1e-300, 1.0);
-    if share <= chance {
+    let random_inlier_probability = random_inlier_probability.clamp(1e-300, 1.0);
+    if ratio <= random_inlier_probability {
         return log_tries / core::f64::consts::LN_10;
     }
-    let misses = if share < 1.0 {
-        (1.0 - share) * libm::log((1.0 - share) / (1.0 - chance))
+    let misses = if ratio < 1.0 {
+        (1.0 - ratio) * libm::log((1.0 - ratio) / (1.0 - random_inlier_probability))
     } else {
         0.0
     };
-    let divergence = share * libm::log(share / chance) + misses;
+    let divergence = ratio * libm::log(ratio / random_inlier_probability) + misses;
     (log_tries - others * divergence) / core::f64::consts::LN_10
 }
 
@@ -79,7 +79,7 @@ fn extent([u, v]: [Vec<f64>; 2]) -> (f64, f64) {
     (width.max(THINNEST * height), height.max(THINNEST * width))
 }
 
-fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
+fn fraction_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
     if width > 0.0 {
         (area / (width * height)).min(1.0)
     } else {
@@ -90,16 +90,16 @@ fn share_of_box(area: f64, (width, height): (f64, f64)) -> f64 {
 
 /// Returns the probability that a random point in the box around the points is within `radius` of a
 /// given one.
-pub(crate) fn chance_near_point(coordinates: [Vec<f64>; 2], radius: f64) -> f64 {
-    share_of_box(core::f64::consts::PI * radius * radius, extent(coordinates))
+pub(crate) fn probability_near_point(coordinates: [Vec<f64>; 2], radius: f64) -> f64 {
+    fraction_of_box(core::f64::consts::PI * radius * radius, extent(coordinates))
 }
 
 /// Returns the probability that a random point in the box around the points is within `distance` of
 /// a line across it; the longest line is the diagonal.
-pub(crate) fn chance_near_line(coordinates: [Vec<f64>; 2], distance: f64) -> f64 {
+pub(crate) fn probability_near_line(coordinates: [Vec<f64>; 2], distance: f64) -> f64 {
     let (width, height) = extent(coordinates);
     let diagonal = (width * width + height * height).sqrt();
-    share_of_box(2.0 * distance * diagonal, (width, height))
+    fraction_of_box(2.0 * distance * diagonal, (width, height))
 }
 
 #[cfg(test)]
@@ -115,7 +115,7 @@ mod tests {
     }
 
     /// The exact expectation, from the binomial distribution.
-    fn exact(num_inliers: usize, num_data: usize, sample_size: usize, chance: f64) -> f64 {
+    fn exact(num_inliers: usize, num_data: usize, sample_size: usize, probability: f64) -> f64 {
         let log_factorial = |n: usize| libm::lgamma(n as f64 + 1.0);
         let log_choose =
             |n: usize, k: usize| log_factorial(n) - log_factorial(k) - log_factorial(n - k);
@@ -125,8 +125,8 @@ mod tests {
                 let (hits, misses) = (k as f64, (others - k) as f64);
                 libm::exp(
                     log_choose(others, k)
-                        + hits * libm::log(chance)
-                        + misses * libm::log(1.0 - chance),
+                        + hits * libm::log(probability)
+                        + misses * libm::log(1.0 - probability),
                 )
             })
             .sum();
@@ -135,15 +135,15 @@ mod tests {
 
     #[test]
     fn the_bound_is_above_the_binomial_tail_and_close() {
-        for (k, n, s, chance) in [
+        for (k, n, s, random_inlier_probability) in [
             (20, 50, 7, 0.01),
             (15, 300, 4, 0.002),
             (165, 3000, 7, 0.02),
             (40, 200, 5, 0.05),
         ] {
             let (bound, value) = (
-                log10_false_alarms(k, n, s, 1, chance),
-                exact(k, n, s, chance),
+                log10_false_alarms(k, n, s, 1, random_inlier_probability),
+                exact(k, n, s, random_inlier_probability),
             );
             assert!(
                 bound >= value && bound < value + 2.5,
@@ -155,9 +155,12 @@ mod tests {
     #[test]
     fn extremes_stay_finite() {
         for (k, n) in [(0, 0), (3, 3), (10, 10), (10, 5), (7, 1000), (1000, 1000)] {
-            for chance in [0.0, 1e-320, 0.5, 1.0, 7.0] {
-                let value = log10_false_alarms(k, n, 7, 3, chance);
-                assert!(value.is_finite(), "{k} of {n}, {chance}: {value}");
+            for random_inlier_probability in [0.0, 1e-320, 0.5, 1.0, 7.0] {
+                let value = log10_false_alarms(k, n, 7, 3, random_inlier_probability);
+                assert!(
+                    value.is_finite(),
+                    "{k} of {n}, {random_inlier_probability}: {value}"
+                );
             }
         }
         // Nothing is significant if anything fits.
@@ -165,18 +168,18 @@ mod tests {
     }
 
     #[test]
-    fn chances_are_shares_of_the_box() {
+    fn probabilities_are_fractions_of_the_box() {
         let corners = [Point2::new(0.0, 10.0), Point2::new(300.0, 410.0)];
-        assert!((chance_near_line(lists(&corners), 3.0) - 0.025).abs() < 1e-12);
+        assert!((probability_near_line(lists(&corners), 3.0) - 0.025).abs() < 1e-12);
         let disk = core::f64::consts::PI * 4.0 / 120_000.0;
-        assert!((chance_near_point(lists(&corners), 2.0) - disk).abs() < 1e-12);
+        assert!((probability_near_point(lists(&corners), 2.0) - disk).abs() < 1e-12);
         // Equal points, or none, carry no information.
-        assert_eq!(chance_near_line(lists(&[corners[0]; 5]), 3.0), 1.0);
-        assert_eq!(chance_near_point(lists(&[]), 3.0), 1.0);
+        assert_eq!(probability_near_line(lists(&[corners[0]; 5]), 3.0), 1.0);
+        assert_eq!(probability_near_point(lists(&[]), 3.0), 1.0);
         // Points in a row count as from an image ten times as wide as high.
         let row: Vec<_> = (0..=200).map(|u| Point2::new(f64::from(u), 7.0)).collect();
-        let share = core::f64::consts::PI / (200.0 * 20.0);
-        assert!((chance_near_point(lists(&row), 1.0) - share).abs() < 1e-12);
+        let expected = core::f64::consts::PI / (200.0 * 20.0);
+        assert!((probability_near_point(lists(&row), 1.0) - expected).abs() < 1e-12);
     }
 
     #[test]
@@ -184,8 +187,8 @@ mod tests {
         let mut grid: Vec<_> = (0..10_000)
             .map(|i| Point2::new(f64::from(i % 100), f64::from(i / 100)))
             .collect();
-        let alone = chance_near_line(lists(&grid), 1.0);
+        let grid_only = probability_near_line(lists(&grid), 1.0);
         grid.extend((0..100).map(|i| Point2::new(1e8, -1e7 * f64::from(i))));
-        assert!((chance_near_line(lists(&grid), 1.0) / alone - 1.0).abs() < 0.05);
+        assert!((probability_near_line(lists(&grid), 1.0) / grid_only - 1.0).abs() < 0.05);
     }
 }

@@ -5,14 +5,14 @@ use crate::{Error, Result};
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 
 /// Rotations that make two cameras parallel, with the baseline along an image axis.
-pub(super) struct Turned {
+pub(super) struct ParallelRotations {
     pub(super) rect_from_cam: [Rotation3<f64>; 2],
     pub(super) is_vertical: bool,
     /// From the second to the first center, in the rectified frame: along ±x or ±y.
     pub(super) translation: Vector3<f64>,
 }
 
-pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
+pub(super) fn parallel_rotations(cam2_from_cam1: &RigidTransform) -> Result<ParallelRotations> {
     let what = "a rectification";
     let rotation = cam2_from_cam1.rotation.to_rotation_matrix();
     let t = cam2_from_cam1.translation.vector;
@@ -24,7 +24,7 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     if t.norm() < 1e-12 {
         return Err(Error::Degenerate {
             what,
-            why: "both cameras stand at one place",
+            why: "both cameras are at the same place",
         });
     }
     let half = half_rotation(&rotation);
@@ -35,7 +35,7 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     if halfway.z.abs() > 3.0_f64.sqrt() * halfway.xy().norm() {
         return Err(Error::Degenerate {
             what,
-            why: "one camera stands in front of the other: the baseline may be at most 60° off the image plane",
+            why: "one camera is in front of the other: the baseline may be at most 60° off the image plane",
         });
     }
     let axis = if is_vertical {
@@ -45,7 +45,7 @@ pub(super) fn turn_parallel(cam2_from_cam1: &RigidTransform) -> Result<Turned> {
     };
     let target = axis * halfway.dot(&axis).signum();
     let align = shortest_rotation(&halfway, &target);
-    Ok(Turned {
+    Ok(ParallelRotations {
         rect_from_cam: [align * half, align * half.inverse()],
         is_vertical,
         translation: align * halfway,

@@ -12,7 +12,7 @@ use nalgebra::Point2;
 /// Finds a rotation that explains the inliers of another model equally well, if there is one.
 ///
 /// * `ransac`: options of the search for that model
-pub(crate) fn find_turn(
+pub(crate) fn find_rotation_only(
     pixels1: &[Point2<f64>],
     pixels2: &[Point2<f64>],
     cameras: [&Camera; 2],
@@ -23,11 +23,11 @@ pub(crate) fn find_turn(
 }
 
 /// Returns a warning about a rotation that explains the inliers.
-pub(crate) fn sentence(turn: &ExplainingRotation) -> String {
+pub(crate) fn sentence(rotation: &ExplainingRotation) -> String {
     format!(
         "a pure rotation explains {} of the {} inliers: whether and in which direction the camera \
          moved cannot be determined",
-        turn.num_explained, turn.num_inliers
+        rotation.num_explained, rotation.num_inliers
     )
 }
 
@@ -43,15 +43,15 @@ pub(crate) fn sentence_of_other_focal(
     inliers: &[bool],
     options: &TwoViewOptions,
 ) -> epipole::Result<Option<String>> {
-    let turn = find_rotation_and_focal(pixels1, pixels2, cameras, inliers, options)?;
-    Ok(turn.map(|turn| {
+    let rotation = find_rotation_and_focal(pixels1, pixels2, cameras, inliers, options)?;
+    Ok(rotation.map(|rotation| {
         format!(
             "a pure rotation by {:.1}° with a focal length near {:.0} px also explains {} of the {} inliers: \
              then there is no plane, and no depth",
-            turn.cam2_from_cam1.rotation.angle().to_degrees(),
-            turn.focal_factor * cameras[0].intrinsics.fu_px(),
-            turn.num_explained,
-            turn.num_inliers
+            rotation.cam2_from_cam1.rotation.angle().to_degrees(),
+            rotation.focal_factor * cameras[0].intrinsics.fu_px(),
+            rotation.num_explained,
+            rotation.num_inliers
         )
     }))
 }
@@ -78,13 +78,13 @@ pub(crate) fn left_open_by_homography(
         return Ok(Some(sentence_of_degeneracy(&found)));
     }
     for (image, pixels) in [(1, pixels1), (2, pixels2)] {
-        let kept = pixels.iter().zip(inliers).filter(|(_, fits)| **fits);
-        let kept: Vec<Point2<f64>> = kept.map(|(pixel, _)| *pixel).collect();
-        if let Some(num_near) = num_near_line(&kept, ransac) {
+        let inlier_pixels = pixels.iter().zip(inliers).filter(|(_, fits)| **fits);
+        let inlier_pixels: Vec<Point2<f64>> = inlier_pixels.map(|(pixel, _)| *pixel).collect();
+        if let Some(num_collinear) = num_on_one_line(&inlier_pixels, ransac) {
             return Ok(Some(format!(
-                "{num_near} of the {} inliers are collinear in image {image}, within the noise: beside their line the homography is \
+                "{num_collinear} of the {} inliers are collinear in image {image}, within the noise: beside their line the homography is \
                  not determined",
-                kept.len()
+                inlier_pixels.len()
             )));
         }
     }
@@ -93,7 +93,7 @@ pub(crate) fn left_open_by_homography(
 
 /// Returns the number of pixels on one line, if too few others constrain the model. A homography
 /// fits any two others, with any mapping on the line.
-fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
+fn num_on_one_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize> {
     const OTHERS: usize = 2;
     /// Fewer lie on a line by chance.
     const LEAST: usize = 5;
@@ -104,8 +104,9 @@ fn num_near_line(pixels: &[Point2<f64>], ransac: &RansacOptions) -> Option<usize
     // Identical pixels define no line and need no further warning.
     let lines = LineEstimator::new(pixels).ok()?;
     let found = epipole::robust::ransac(lines, &options, &mut ()).ok()?;
-    let are_alone = found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();
-    are_alone.then_some(found.num_inliers)
+    let has_too_few_others =
+        found.num_inliers >= LEAST && found.num_inliers + OTHERS >= pixels.len();
+    has_too_few_others.then_some(found.num_inliers)
 }
 
 /// Adds the reason to a failure with known gravity: three matches that did not move define no
