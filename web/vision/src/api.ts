@@ -299,7 +299,7 @@ export interface CalibratedView {
   camFromBoard: RigidTransform;
   /** Root mean square of its reprojection errors, pixels. */
   rmsPx: number;
-  /** Number of marks seen. */
+  /** Number of visible marks. */
   numMarks: number;
 }
 
@@ -493,7 +493,7 @@ export interface Features {
 export interface FoundBoard {
   /** Pixel of each mark, row by row, interleaved; NaN for hidden marks. Null without a board. */
   pixels: Float64Array | null;
-  /** Number of marks seen. */
+  /** Number of visible marks. */
   numVisible: number;
   /** Why the board was not found, as a sentence; null if it was. */
   problem: string | null;

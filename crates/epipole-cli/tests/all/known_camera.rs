@@ -173,7 +173,7 @@ fn matches_contain_the_rays_of_their_keypoints() {
     );
     let stdout_of = |arguments: &[&str]| String::from_utf8(epipole(arguments).stdout).unwrap();
     let text = stdout_of(&["match", a, b, "--camera", path(&file)]);
-    assert!(text.contains(&row), "{row}: {estimated}");
+    assert!(text.contains(&row), "{row}: {text}");
     assert!(json(&["match", a, b]).get("rays1").is_none());
     assert!(!stdout_of(&["match", a, b]).contains("lens"));
 }

@@ -21,7 +21,7 @@ structs! {
         /// Pixel of each mark, row by row, interleaved; NaN for hidden marks. Null without a
         /// board.
         pixels: Option<Numbers>,
-        /// Number of marks seen.
+        /// Number of visible marks.
         num_visible: usize,
         /// Why the board was not found, as a sentence; null if it was.
         problem: Option<Text>,

@@ -20,7 +20,7 @@ records! {
         cam_from_board: RigidTransform,
         /// Root mean square of its reprojection errors, pixels.
         rms_px: f64,
-        /// Number of marks seen.
+        /// Number of visible marks.
         num_marks: usize,
     }
 

@@ -280,10 +280,15 @@ mod tests {
         let middle = corners.iter().map(|corner| corner.coords / 4.0).sum();
         // A book lies on the first corner of the cloth, the tea tin stands on the second.
         for corner in &corners[2..] {
-            for (share, is_on) in [(0.99, true), (1.01, false)] {
-                let point = Point3::from(corner.coords.lerp(&middle, 1.0 - share));
+            for (fraction, is_on) in [(0.99, true), (1.01, false)] {
+                let point = Point3::from(corner.coords.lerp(&middle, 1.0 - fraction));
                 let hit = scene.cast(&(point - from), from).unwrap();
-                assert_eq!(hit.object == name, is_on, "{corner} {share} {}", hit.object);
+                assert_eq!(
+                    hit.object == name,
+                    is_on,
+                    "{corner} {fraction} {}",
+                    hit.object
+                );
             }
         }
     }
