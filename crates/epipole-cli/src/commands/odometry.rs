@@ -76,7 +76,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     matching: MatchArguments,
     /// Number of following frames to match each frame with, so that a bad pair breaks no track (0:
-    /// all).
+    /// those that look alike).
     #[arg(long, default_value_t = 4, value_name = "N", help_heading = "Matches")]
     neighbors: usize,
     #[command(flatten)]

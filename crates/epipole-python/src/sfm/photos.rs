@@ -107,7 +107,7 @@ pub(super) fn photo_features(
     Ok(PhotoFeatures(features))
 }
 
-/// Matches all pairs of photos, or those close in order.
+/// Matches pairs of photos: of some dozens all, of more those that look alike or are close in order.
 ///
 /// Parameters
 /// ----------
@@ -116,7 +116,8 @@ pub(super) fn photo_features(
 ///     Called with the stage and the completed fraction.
 /// **options : PhotoOptions
 ///     ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
-///     photos to match with each photo, 0 for all; ``best_first``.
+///     photos to match with each photo; ``similar``, the number of photos that look most like it,
+///     by default 40 if ``neighbors`` is 0, else 0 (all pairs if both are 0); ``best_first``.
 ///
 /// Returns
 /// -------

@@ -19,6 +19,7 @@ mod short_tensor;
 mod sift;
 mod structure_tensor;
 mod track;
+mod vlad;
 mod window_tensor;
 
 pub use corners::{harris_response, min_eigenvalue_response};
@@ -40,4 +41,5 @@ pub use structure_tensor::{
     Scaling, StructureTensor, StructureTensorOptions, Window, structure_tensor,
 };
 pub use track::{Track, TrackOptions, track_lucas_kanade};
+pub(crate) use vlad::global_descriptors;
 pub use window_tensor::{ShiftSurface, WindowTensor, shift_surface};

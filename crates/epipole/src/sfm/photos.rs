@@ -2,7 +2,8 @@
 
 use super::bundle::PositionPrior;
 use super::incremental::{SfmResult, reconstruct};
-use super::options::{OF_IMAGES, SfmInput, SfmOptions, check_count};
+use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check_count};
+use super::pair_selection::select_pairs;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
 use crate::camera::Camera;
@@ -42,8 +43,12 @@ pub struct PhotoOptions {
     pub features: FeatureOptions,
     /// Ratio 0.8, mutual.
     pub matching: MatchOptions,
-    /// Number of following images to match each one with; 0 for all. For frames in order of time.
+    /// Number of following images to match each one with, for frames in order of time. 0.
     pub neighbors: usize,
+    /// Number of images to match each one with that look most like it; 0 for none, and all pairs if
+    /// `neighbors` is 0 as well. By default 40 if `neighbors` is 0, else none.
+    #[setters(strip_option)]
+    pub similar: Option<usize>,
     /// Sort the matches of a pair by ambiguity, as PROSAC needs, rather than by the keypoints of
     /// the first image. False.
     pub best_first: bool,
@@ -94,42 +99,39 @@ pub fn photo_features(
     })
 }
 
-/// Matches all pairs of images, or those that are close in order.
+/// Matches pairs of images: of some dozens all, of more those that look alike or are close in order,
+/// as `options` say.
 ///
 /// * `monitor`: the only stage is [`Stage::FeatureMatching`]
 ///
 /// # Errors
 /// As [`match_descriptors`].
 ///
-/// Source: Lowe 2004. Comparing all pairs suits some dozens of images.
+/// Source: Lowe 2004; similar images by Jégou, Douze, Schmid & Pérez 2010, "Aggregating local
+/// descriptors into a compact image representation", with a vocabulary of these images.
 pub fn match_features(
     features: &[PhotoFeatures],
     options: &PhotoOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<PairMatches>> {
-    let reach = if options.neighbors == 0 {
-        features.len()
-    } else {
-        options.neighbors
-    };
-    let after = |image: usize| image + 1..features.len().min(image.saturating_add(reach + 1));
-    let total: usize = (0..features.len()).map(|image| after(image).len()).sum();
-    let fraction = |done: usize| done as f32 / total as f32;
-    let mut pairs = Vec::new();
-    for image1 in 0..features.len() {
-        for image2 in after(image1) {
-            let mut part = Part::new(monitor, fraction(pairs.len()), fraction(pairs.len() + 1));
-            let (first, second) = (&features[image1], &features[image2]);
-            pairs.push(PairMatches {
-                image1,
-                image2,
-                matches: match_pair(first, second, options, &mut part)?,
-            });
-        }
+    let selected = select_pairs(features, options, &mut Part::new(monitor, 0.0, SELECTED))?;
+    let progress = |done: usize| SELECTED + (1.0 - SELECTED) * done as f32 / selected.len() as f32;
+    let mut pairs = Vec::with_capacity(selected.len());
+    for &(image1, image2) in &selected {
+        let mut part = Part::new(monitor, progress(pairs.len()), progress(pairs.len() + 1));
+        let (first, second) = (&features[image1], &features[image2]);
+        pairs.push(PairMatches {
+            image1,
+            image2,
+            matches: match_pair(first, second, options, &mut part)?,
+        });
     }
     report(monitor, Stage::FeatureMatching, 1.0)?;
     Ok(pairs)
 }
+
+/// Progress of [`match_features`] when the pairs are chosen.
+const SELECTED: f32 = 0.05;
 
 /// Matches the two images of a rectified stereo pair, left first: keeps matches in the same row to
 /// within 2 pixels that are further right in the left image.
@@ -188,15 +190,15 @@ pub fn match_photos(
 ) -> Result<(Vec<SfmImage>, Vec<PairMatches>)> {
     if photos.len() < 2 {
         return Err(Error::TooFew {
-            what: OF_IMAGES,
+            what: OF_PHOTOGRAPHS,
             needed: 2,
             got: photos.len(),
         });
     }
-    let fraction = |done: usize| DETECTED * done as f32 / photos.len() as f32;
+    let share = |done: usize| DETECTED * done as f32 / photos.len() as f32;
     let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
-        let mut part = Part::new(monitor, fraction(index), fraction(index + 1));
+        let mut part = Part::new(monitor, share(index), share(index + 1));
         features.push(photo_features(photo, options, &mut part)?);
     }
     let mut part = Part::new(monitor, DETECTED, 1.0);

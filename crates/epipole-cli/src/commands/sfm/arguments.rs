@@ -51,9 +51,13 @@ pub(crate) struct Arguments {
     pub(super) features: FeatureArguments,
     #[command(flatten)]
     pub(super) matching: MatchArguments,
-    /// Number of following images to match each image with, for frames in temporal order (0: all).
+    /// Number of following images to match each image with, for frames in temporal order.
     #[arg(long, default_value_t = 0, value_name = "N", help_heading = "Matches")]
     pub(super) neighbors: usize,
+    /// Match each image with the N that look most like it (0: all pairs, or only --neighbors)
+    /// [default: 40, or 0 with --neighbors].
+    #[arg(long, value_name = "N", help_heading = "Matches")]
+    pub(super) similar: Option<usize>,
     #[command(flatten)]
     pub(super) robust: RobustArguments,
     #[command(flatten)]
@@ -65,10 +69,12 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// Returns the options of features and matches.
     pub(super) fn photo_options(&self, options: &SfmOptions) -> PhotoOptions {
-        PhotoOptions::default()
+        let mut photo_options = PhotoOptions::default()
             .with_features(self.features.options())
             .with_matching(self.matching.options())
             .with_neighbors(self.neighbors)
-            .with_best_first(options.ransac.sampler == SamplerKind::Prosac)
+            .with_best_first(options.ransac.sampler == SamplerKind::Prosac);
+        photo_options.similar = self.similar;
+        photo_options
     }
 }

@@ -14,5 +14,7 @@ mod model;
 mod summary;
 #[cfg(feature = "files")]
 mod texture;
+#[cfg(feature = "files")]
+mod trajectory;
 
 pub use contents::{Export, ExportFormat, Measured, Recipe};

@@ -2,7 +2,7 @@
 
 use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
-use super::{cloud, depth, summary, texture};
+use super::{cloud, depth, summary, texture, trajectory};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
@@ -11,7 +11,6 @@ use crate::tasks::reconstruction::ImagePoints;
 use crate::tasks::task::{Monitor, Run};
 use epipole_io::model::{Model, ModelFormat};
 use epipole_io::photo::encode_jpeg;
-use epipole_io::trajectory::{TrajectoryFormat, write_trajectory};
 use image::{DynamicImage, ImageFormat, RgbImage};
 use std::collections::BTreeSet;
 use std::io::Cursor;
@@ -69,11 +68,9 @@ impl Run for Export {
         let page = files.to_html(&surface).map_err(|error| error.to_string())?;
         archive.add("model.html", &page)?;
         archive.add("points.ply", &files.to_ply())?;
-        let path = write_trajectory(TrajectoryFormat::Kitti, &files.trajectory());
-        archive.add(
-            "trajectory.txt",
-            path.map_err(|e| e.to_string())?.as_bytes(),
-        )?;
+        for (name, text) in trajectory::files(&files)? {
+            archive.add(name, text.as_bytes())?;
+        }
         depth::add(&mut archive, export)?;
         cloud::add(&mut archive, export, &surface, texture.as_ref())?;
         let json = summary::json(export, &images, &model);

@@ -104,6 +104,7 @@ pub(super) fn readme(export: &Export) -> String {
         "model.html           a page that shows them in any browser\n\
          points.ply           the points with their colors\n\
          trajectory.txt       the poses in the order of the photographs, as KITTI has them\n\
+         trajectory.tum       the same with times, as TUM has them, if photographs are named by their times\n\
          reconstruction.json  what `epipole sfm --json` prints\n",
     );
     if export.recipe.program.is_some() {
