@@ -228,6 +228,22 @@ functions! {
         })?
     }
 
+    /// Sampson distances of matches through lenses from a motion, pixels; Infinity behind a camera,
+    /// NaN for pixels without a ray.
+    fn tangent_sampson_px(
+        cam2_from_cam1: RigidTransform, pixels1: Vectors<2>, pixels2: Vectors<2>, camera1: Camera,
+        camera2: Camera
+    ) -> Numbers {
+        crate::pairs::numbers(pixels1, pixels2, |pixel1, pixel2| {
+            match (camera1.observe(pixel1), camera2.observe(pixel2)) {
+                (Ok(seen1), Ok(seen2)) => {
+                    epipolar::tangent_sampson_px(&cam2_from_cam1, &seen1, &seen2)
+                }
+                _ => f64::NAN,
+            }
+        })?
+    }
+
     /// Symmetric epipolar distances of matches from a fundamental matrix, pixels.
     fn symmetric_epipolar_px(
         fundamental: Matrix3<f64>, pixels1: Vectors<2>, pixels2: Vectors<2>

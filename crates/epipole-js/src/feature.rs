@@ -20,7 +20,7 @@ use epipole::imaging::GrayImage32;
 const BYTES_OF_BITS: usize = 32;
 
 /// A list of keypoints.
-struct Keypoints(Vec<Keypoint>);
+pub(crate) struct Keypoints(pub(crate) Vec<Keypoint>);
 
 impl From<&[Match]> for Matches {
     fn from(matches: &[Match]) -> Self {
@@ -292,6 +292,14 @@ functions! {
         image: Gray, keypoints: Keypoints, options: Options<SiftOptions>; monitor
     ) -> Descriptors {
         feature::describe_sift(&image.0, &keypoints.0, &options.0, monitor)?
+    }
+
+    /// Gray values in a square around each keypoint, `size` x `size` at distances of `spacingPx`,
+    /// with mean 0 and length 1.
+    fn describe_patches(
+        image: Gray, keypoints: Keypoints, size: u32, spacing_px: f64; monitor
+    ) -> Descriptors {
+        feature::describe_patches(&image.0, &keypoints.0, size as usize, spacing_px, monitor)?
     }
 
     /// Corner response of Harris with its factor k, such as 0.05.

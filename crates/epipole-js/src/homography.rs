@@ -1,5 +1,8 @@
 //! Homographies, and similarity transforms of the plane.
 
+#[cfg(feature = "geometry")]
+pub(crate) mod calibrated;
+
 use crate::argument::{Sample, Vectors};
 use crate::functions::functions;
 use crate::options::{Options, Setting};

@@ -235,6 +235,25 @@ impl Argument for Gray {
     }
 }
 
+/// Reads `colors` of an object, if it has them.
+///
+/// * `of`: name of the things that have a color each
+#[cfg(feature = "all")]
+pub(crate) fn colors(name: &str, value: &Value, of: &str) -> Result<Option<Vec<[u8; 3]>>> {
+    match value.get("colors") {
+        Value::Nothing => Ok(None),
+        Value::Bytes(bytes) if bytes.len() % 3 == 0 => {
+            let colors = bytes.chunks_exact(3);
+            let colors = colors.map(|color| [color[0], color[1], color[2]]);
+            Ok(Some(colors.collect()))
+        }
+        other => {
+            let expected = format!("a Uint8Array of 3 bytes for each {of}");
+            Err(not(&format!("{name}.colors"), &expected, other))
+        }
+    }
+}
+
 fn image_value<P: Pixel>(image: ImageBuffer<P, Vec<P::Subpixel>>, data: Value) -> Value {
     Value::Record(vec![
         ("width".into(), image.width().into_value()),
@@ -259,6 +278,27 @@ impl Output for GrayImage32 {
 
     fn into_value(self) -> Value {
         let data = Value::Floats(self.as_raw().clone());
+        image_value(self, data)
+    }
+}
+
+#[cfg(feature = "all")]
+impl Output for RgbImage {
+    fn typescript(types: &mut Types) -> String {
+        types.interface(
+            "RgbImage",
+            "Red, green and blue, a byte each, rows from top to bottom.",
+            &[
+                ("width", "number", "Pixels."),
+                ("height", "number", "Pixels."),
+                ("data", "Uint8Array", "Values."),
+            ],
+        );
+        "RgbImage".to_owned()
+    }
+
+    fn into_value(self) -> Value {
+        let data = Value::Bytes(self.as_raw().clone());
         image_value(self, data)
     }
 }

@@ -1,5 +1,7 @@
 //! Filters for gray images, and warps for images of any kind.
 
+pub(crate) mod pyramid;
+
 use crate::fault::Result;
 use crate::functions::functions;
 use crate::images::{Field, Image, require_size, same_kind};

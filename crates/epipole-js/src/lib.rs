@@ -33,6 +33,10 @@ pub mod images;
 #[cfg(feature = "images")]
 mod imaging;
 #[cfg(feature = "all")]
+mod math;
+#[cfg(feature = "all")]
+mod mvs;
+#[cfg(feature = "all")]
 mod optim;
 #[cfg(feature = "geometry")]
 mod robust;
@@ -40,6 +44,8 @@ mod robust;
 mod sfm;
 #[cfg(feature = "images")]
 mod stereo;
+#[cfg(feature = "all")]
+mod stitch;
 #[cfg(feature = "geometry")]
 mod synthetic;
 #[cfg(feature = "geometry")]
@@ -86,6 +92,11 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "geometry")]
     Group {
         part: "geometry",
+        functions: homography::calibrated::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
         functions: epipolar::FUNCTIONS,
     },
     #[cfg(feature = "geometry")]
@@ -111,12 +122,22 @@ pub const GROUPS: &[Group] = &[
     #[cfg(feature = "geometry")]
     Group {
         part: "geometry",
+        functions: two_view::degeneracy::FUNCTIONS,
+    },
+    #[cfg(feature = "geometry")]
+    Group {
+        part: "geometry",
         functions: synthetic::FUNCTIONS,
     },
     #[cfg(feature = "images")]
     Group {
         part: "images",
         functions: imaging::FUNCTIONS,
+    },
+    #[cfg(feature = "images")]
+    Group {
+        part: "images",
+        functions: imaging::pyramid::FUNCTIONS,
     },
     #[cfg(feature = "images")]
     Group {
@@ -173,6 +194,71 @@ pub const GROUPS: &[Group] = &[
         part: "all",
         functions: sfm::pose_graph::FUNCTIONS,
     },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::features::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::tracks::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::known_poses::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::odometry::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::scene::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::unregistered::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::alignment::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: sfm::loops::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: mvs::view::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: mvs::depth_map::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: mvs::mesh::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: stitch::FUNCTIONS,
+    },
+    #[cfg(feature = "all")]
+    Group {
+        part: "all",
+        functions: math::FUNCTIONS,
+    },
 ];
 
 /// Returns the signatures of [`GROUPS`], in the same order.
@@ -182,6 +268,8 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         homography::signatures(types),
         #[cfg(feature = "geometry")]
         camera::signatures(types),
+        #[cfg(feature = "geometry")]
+        homography::calibrated::signatures(types),
         #[cfg(feature = "geometry")]
         epipolar::signatures(types),
         #[cfg(feature = "geometry")]
@@ -193,9 +281,13 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         #[cfg(feature = "geometry")]
         two_view::signatures(types),
         #[cfg(feature = "geometry")]
+        two_view::degeneracy::signatures(types),
+        #[cfg(feature = "geometry")]
         synthetic::signatures(types),
         #[cfg(feature = "images")]
         imaging::signatures(types),
+        #[cfg(feature = "images")]
+        imaging::pyramid::signatures(types),
         #[cfg(feature = "images")]
         feature::signatures(types),
         #[cfg(feature = "images")]
@@ -218,6 +310,32 @@ pub fn signatures(types: &mut Types) -> Vec<Vec<Signature>> {
         sfm::reconstruction::signatures(types),
         #[cfg(feature = "all")]
         sfm::pose_graph::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::features::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::tracks::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::known_poses::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::odometry::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::scene::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::unregistered::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::alignment::signatures(types),
+        #[cfg(feature = "all")]
+        sfm::loops::signatures(types),
+        #[cfg(feature = "all")]
+        mvs::view::signatures(types),
+        #[cfg(feature = "all")]
+        mvs::depth_map::signatures(types),
+        #[cfg(feature = "all")]
+        mvs::mesh::signatures(types),
+        #[cfg(feature = "all")]
+        stitch::signatures(types),
+        #[cfg(feature = "all")]
+        math::signatures(types),
     ]
 }
 

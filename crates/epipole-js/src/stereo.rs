@@ -129,7 +129,7 @@ fn disparity(
 }
 
 /// Reads a disparity image, in which NaN stands for pixels without a match.
-struct Disparity(DisparityImage);
+pub(crate) struct Disparity(pub(crate) DisparityImage);
 
 impl crate::argument::Argument for Disparity {
     fn typescript(types: &mut crate::types::Types) -> String {
@@ -228,6 +228,21 @@ functions! {
         let mut disparity = disparity.0;
         stereo::remove_speckles(&mut disparity, min_size, range_px as f32, monitor)?;
         disparity.into_image()
+    }
+
+    /// Disparities with all gaps filled by the background beside them, along edges of the left
+    /// image, which has bytes.
+    fn fill_gaps(disparity: Disparity, left: Image; monitor) -> GrayImage32 {
+        let Image::Gray8(left) = left.into_gray() else {
+            let message = "left must be an image of bytes, but has floats";
+            return Err(Fault::of_type(message.to_owned()));
+        };
+        stereo::fill_gaps(&disparity.0, &left, monitor)?.into_image()
+    }
+
+    /// Matrix Q of a rectified rig, for `pointCloud`, 16 numbers by row.
+    fn q_from_rig(focal_px: f64, baseline_m: f64, cu_px: f64, cv_px: f64) -> Matrix4<f64> {
+        stereo::q_from_rig(focal_px, baseline_m, cu_px, cv_px)?
     }
 
     /// Depth of every pixel, meters; NaN without disparity or where it is not positive.

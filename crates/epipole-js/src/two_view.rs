@@ -1,5 +1,7 @@
 //! Choice among F, E and H for two views.
 
+pub(crate) mod degeneracy;
+
 use crate::argument::Vectors;
 use crate::functions::functions;
 use crate::options::Options;

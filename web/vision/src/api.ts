@@ -42,6 +42,7 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   rotationAngleRad: ["geometry", "aFromB"],
   intrinsicsMatrix: ["geometry", "intrinsics"],
   projectionMatrix: ["geometry", "camera"],
+  estimateHomographyCalibrated: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateFundamental: ["geometry", "pixels1", "pixels2", "options"],
   estimateEssential: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateRelativePose: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
@@ -59,6 +60,7 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   refineFundamental: ["geometry", "fundamental", "pixels1", "pixels2", "loss"],
   refineRelativePose: ["geometry", "cam2FromCam1", "pixels1", "pixels2", "camera1", "camera2", "loss"],
   sampsonPx: ["geometry", "fundamental", "pixels1", "pixels2"],
+  tangentSampsonPx: ["geometry", "cam2FromCam1", "pixels1", "pixels2", "camera1", "camera2"],
   symmetricEpipolarPx: ["geometry", "fundamental", "pixels1", "pixels2"],
   epipolarLine1: ["geometry", "fundamental", "pixels2"],
   epipolarLine2: ["geometry", "fundamental", "pixels1"],
@@ -100,6 +102,10 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   estimateTwoView: ["geometry", "pixels1", "pixels2", "options"],
   estimateTwoViewCalibrated: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
   estimateRotation: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "options"],
+  findDegeneracy: ["geometry", "pixels1", "pixels2", "inliers", "options"],
+  findUnmoved: ["geometry", "pixels1", "pixels2", "inliers", "options"],
+  findExplainingRotation: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "inliers", "options"],
+  findRotationAndFocal: ["geometry", "pixels1", "pixels2", "camera1", "camera2", "inliers", "options"],
   twoViewProblem: ["geometry", "options"],
   multiViewProblem: ["geometry", "options"],
   centeredDifference: ["images", "image", "border"],
@@ -111,11 +117,19 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   correlate: ["images", "image", "kernel", "border"],
   warpPerspective: ["images", "image", "outFromImage", "options"],
   warpAffine: ["images", "image", "outFromImage", "options"],
+  resize: ["images", "image", "width", "height"],
+  pyramidDown: ["images", "image", "border"],
+  pyramidUp: ["images", "image", "width", "height"],
+  gaussianPyramid: ["images", "image", "numLevels"],
+  laplacianPyramid: ["images", "image", "numLevels"],
+  fromLaplacianPyramid: ["images", "levels"],
+  sharpness: ["images", "image"],
   photoToGray: ["images", "photo"],
   detectFeatures: ["images", "image", "options"],
   detectSift: ["images", "image", "options"],
   detectOrb: ["images", "image", "options"],
   describeSift: ["images", "image", "keypoints", "options"],
+  describePatches: ["images", "image", "keypoints", "size", "spacingPx"],
   harrisResponse: ["images", "image", "k", "options"],
   minEigenvalueResponse: ["images", "image", "options"],
   goodFeaturesToTrack: ["images", "image", "options"],
@@ -134,6 +148,8 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   stereoBm: ["images", "left", "right", "options"],
   stereoSgm: ["images", "left", "right", "options"],
   removeSpeckles: ["images", "disparity", "minSize", "rangePx"],
+  fillGaps: ["images", "disparity", "left"],
+  qFromRig: ["images", "focalPx", "baselineM", "cuPx", "cvPx"],
   depthImage: ["images", "disparity", "focalPx", "baselineM"],
   pointCloud: ["images", "disparity", "q"],
   depthFromDisparity: ["images", "focalPx", "baselineM", "disparityPx"],
@@ -156,6 +172,36 @@ export const FUNCTIONS: Readonly<Record<string, readonly [Part, ...string[]]>> =
   reconstructPhotos: ["all", "photos", "cameras", "photoOptions", "options"],
   optimizePoseGraph: ["all", "edges", "numVertices", "worldFromVertex", "loss", "options"],
   averageRotations: ["all", "measured", "numViews", "loss", "options"],
+  photoFeatures: ["all", "photo", "options"],
+  matchFeatures: ["all", "features", "options"],
+  matchRectified: ["all", "left", "right", "options"],
+  localize: ["all", "reconstruction", "features", "photo", "camera", "options"],
+  buildTracks: ["all", "numKeypoints", "pairs"],
+  verifyMatches: ["all", "pair", "image1", "image2", "camera1", "camera2", "options"],
+  triangulateTracks: ["all", "images", "cameras", "pairs", "camFromWorld", "options"],
+  monocularOdometry: ["all", "images", "cameras", "pairs", "options"],
+  stereoOdometry: ["all", "images", "cameras", "pairs", "right", "leftRight", "rightFromLeft", "rightCamera", "options"],
+  moveReconstruction: ["all", "reconstruction", "toFromWorld"],
+  meanReprojectionPx: ["all", "reconstruction", "images"],
+  reconstructionBundle: ["all", "reconstruction", "images"],
+  determinesFocal: ["all", "reconstruction", "images"],
+  refineLenses: ["all", "reconstruction", "images", "options"],
+  whyUnregistered: ["all", "images", "cameras", "pairs", "result", "options"],
+  alignPoints: ["all", "fromPoints", "toPoints", "kind"],
+  absoluteTrajectoryError: ["all", "estimated", "truth", "kind"],
+  relativePoseError: ["all", "estimated", "truth", "step"],
+  estimateSimilarityOfPoints: ["all", "fromPoints", "toPoints", "maxDistance", "seed"],
+  closeLoops: ["all", "worldFromCam", "loops", "motion", "loss", "options"],
+  prepareViews: ["all", "reconstruction", "photos", "options"],
+  estimateDepthMaps: ["all", "views", "options"],
+  fuseDepthMaps: ["all", "views", "maps", "options"],
+  meshDepthMaps: ["all", "views", "maps", "options"],
+  textureMesh: ["all", "mesh", "views", "options"],
+  findOverlap: ["all", "image1", "image2", "pixels1", "pixels2", "options"],
+  estimatePanorama: ["all", "intrinsics", "overlaps", "findFocal", "options"],
+  chainHomographies: ["all", "numImages", "overlaps"],
+  renderPanorama: ["all", "panorama", "photos", "options"],
+  localFromGeodetic: ["all", "place", "origin"],
 };
 
 /** Pose and focal length. */
@@ -349,6 +395,16 @@ export interface Camera {
   lens?: Lens;
 }
 
+/** Path after its loops are closed. */
+export interface ClosedPath {
+  /** Pose of the camera of each frame in the world. */
+  worldFromCam: RigidTransform[];
+  /** Factor for lengths around each frame. */
+  scale: Float64Array;
+  /** Report of the optimization. */
+  report: PoseGraphReport;
+}
+
 /** Matches that satisfy the epipolar constraint; NaN for those without a correction. */
 export interface CorrectedMatches {
   /** Pixels of image 1, interleaved. */
@@ -357,12 +413,32 @@ export interface CorrectedMatches {
   pixels2: Float64Array;
 }
 
+/** Reason why the inliers of a model do not determine it. */
+export interface Degeneracy {
+  /** Kind. */
+  kind: "unmoved" | "homography";
+  /** Number of inliers that show it. */
+  numExplained: number;
+  /** Number of inliers. */
+  numInliers: number;
+}
+
 /** Depths that a disparity and its error allow. */
 export interface DepthInterval {
   /** Smallest depth, meters. */
   nearM: number;
   /** Largest depth, meters; null if the interval reaches infinity. */
   farM: number | null;
+}
+
+/** Depth and normal of each pixel of a view, row by row. */
+export interface DepthMap {
+  /** Depth along the optical axis, in the unit of the reconstruction; NaN if unknown. */
+  depth: GrayImage;
+  /** Unit normals in the camera's frame, towards the camera, 3 numbers each; 0 without depth. */
+  normals: Float32Array;
+  /** Number of photos that agree on the depth, including this one; 0 without depth. */
+  numViews: Uint8Array;
 }
 
 /** Descriptors, one after the other. */
@@ -418,12 +494,34 @@ export interface Epipoles {
   epipole2: Float64Array;
 }
 
+/** Statistics of errors. */
+export interface ErrorStatistics {
+  /** Root of the mean square. */
+  rmse: number;
+  /** Mean. */
+  mean: number;
+  /** Median; the lower of the middle two for an even number. */
+  median: number;
+  /** Maximum. */
+  max: number;
+}
+
 /** Essential matrix and focal length. */
 export interface EssentialWithFocal {
   /** Essential matrix. */
   essential: Float64Array;
   /** Focal length, pixels. */
   focalPx: number;
+}
+
+/** Rotation that explains nearly all inliers of a model. */
+export interface ExplainingRotation {
+  /** Rotation, with a translation of 0. */
+  cam2FromCam1: RigidTransform;
+  /** Number of inliers that it explains. */
+  numExplained: number;
+  /** Number of inliers. */
+  numInliers: number;
 }
 
 /**
@@ -497,6 +595,16 @@ export interface FoundBoard {
   numVisible: number;
   /** Why the board was not found, as a sentence; null if it was. */
   problem: string | null;
+}
+
+/** Position on the earth, WGS 84, such as from GPS. */
+export interface Geodetic {
+  /** Latitude, north positive, degrees. */
+  latitudeDeg: number;
+  /** Longitude, east positive, degrees. */
+  longitudeDeg: number;
+  /** Height above the ellipsoid, meters. */
+  heightM: number;
 }
 
 /** Options of `goodFeaturesToTrack`. */
@@ -584,6 +692,16 @@ export interface Intrinsics {
   cuPx: number;
   /** Principal point, v. */
   cvPx: number;
+}
+
+/** Keypoints of several photos that show the same point: entry k of each array belongs to keypoint k. */
+export interface KeypointTracks {
+  /** Number of its track, increasing. */
+  track: Uint32Array;
+  /** Index of its photo. */
+  image: Uint32Array;
+  /** Index of the keypoint in the photo. */
+  keypoint: Uint32Array;
 }
 
 /** Keypoints: entry k of each array belongs to keypoint k. */
@@ -690,6 +808,48 @@ export interface LmReport {
   history: LmIteration[];
 }
 
+/** Photo localized in a reconstruction. */
+export interface Localization {
+  /** Pose of the camera. */
+  camFromWorld: RigidTransform;
+  /** Index of the point of each inlier. */
+  inlierPoints: Uint32Array;
+  /** Index of the keypoint of each inlier. */
+  inlierKeypoints: Uint32Array;
+  /** Number of matches between keypoints of the photo and points. */
+  numMatches: number;
+}
+
+/** Options of `localize`. */
+export interface LocalizeOptions {
+  /**
+   * Filters of the matches. Ratio 0.8, mutual. @default { maxDistance: null, maxRatio:
+   * 0.800000011920929, mutual: true, unique: true }
+   */
+  matching?: MatchOptions;
+  /**
+   * Robust estimation of the pose, with a maximum reprojection error of 6 px. @default { budget:
+   * "withoutReplacement", confidence: 0.999, innerIterations: 4, localOptimization: true, maxErrorPx: 6,
+   * maxIterations: 10000, minIterations: 200, sampler: "uniform", score: "msac", scoreEveryTrial: false,
+   * seed: 0, threshold: "given" }
+   */
+  ransac?: RansacOptions;
+  /** Minimum number of inliers. 15. @default 15 */
+  minNumInliers?: number;
+}
+
+/** Motion between two frames that show the same place. */
+export interface LoopClosure {
+  /** Index of the earlier frame. */
+  from: number;
+  /** Index of the later frame. */
+  to: number;
+  /** Pose of the later camera in the frame of the earlier one, with the ratio of their scales. */
+  fromFromTo: Similarity3Like;
+  /** Weight relative to one step of the path. 1 if not given. */
+  weight?: number;
+}
+
 /** Square marker in a photo. */
 export interface Marker {
   /** Number in the dictionary. */
@@ -765,6 +925,46 @@ export interface MatchesLike {
 /** A matrix: numbers by row, or an array of rows. */
 export type Matrix = ArrayLike<number> | readonly ArrayLike<number>[];
 
+/** Triangle mesh. */
+export interface Mesh {
+  /** Vertices with normals and colors. */
+  vertices: PointCloud;
+  /** Indices of the vertices, 3 for each triangle, counterclockwise as seen from outside. */
+  triangles: Uint32Array;
+}
+
+/** Triangle mesh. */
+export interface MeshLike {
+  /** Vertices. */
+  vertices: PointCloudLike;
+  /** Indices of the vertices, 3 for each triangle, counterclockwise as seen from outside. */
+  triangles: ArrayLike<number>;
+}
+
+/** Options of `meshDepthMaps`. */
+export interface MeshOptions {
+  /**
+   * Edge of a voxel in the unit of the reconstruction, greater than 0; if not set, `voxelSizePx`
+   * applies. None. @default null
+   */
+  voxelSize?: number | null;
+  /** Edge of a voxel relative to a pixel's size on the surface, greater than 0. 1.5. @default 1.5 */
+  voxelSizePx?: number;
+  /** Minimum number of triangles of a connected piece. 100. @default 100 */
+  minTriangles?: number;
+}
+
+/** Texture of a mesh. */
+export interface MeshTexture {
+  /** Pixels; black where no triangle needs them. */
+  image: RgbImage;
+  /**
+   * Pixel of each corner of each triangle, in the order of its vertices, interleaved; pixel centers are
+   * at integers.
+   */
+  corners: Float32Array;
+}
+
 /** Cameras, points and observations in images of 640 x 480 pixels, with ground truth. */
 export interface MultiViewProblem {
   /** Cameras. */
@@ -801,6 +1001,69 @@ export interface MultiViewProblemOptions {
   seed?: number;
 }
 
+/** Options of multi-view stereo. */
+export interface MvsOptions {
+  /** Maximum longer side of photos, pixels; larger ones are downscaled. At least 32. 2048. @default 2048 */
+  maxSizePx?: number;
+  /** Number of neighbors with which each photo is compared, 1 to 16. 6. @default 6 */
+  numNeighbors?: number;
+  /** Number of neighbors used per pixel, the best ones; at least 1. 3. @default 3 */
+  numBestNeighbors?: number;
+  /**
+   * Minimum angle between the rays of two neighboring photos, the median over their common points,
+   * degrees. 1. @default 1
+   */
+  minAngleDeg?: number;
+  /** Number of rounds of propagation at each resolution after the coarsest, at least 1. 1. @default 1 */
+  numRounds?: number;
+  /** Minimum weighted correlation of a depth, −1 to 1. 0.3. @default 0.3 */
+  minCorrelation?: number;
+  /**
+   * Minimum number of photos that agree on a depth, including the photo itself; if a photo has fewer
+   * neighbors, all of them. At least 2. 3. @default 3
+   */
+  minViews?: number;
+  /**
+   * Maximum error of a pixel transferred to a neighbor by its depth and back by the neighbor's, pixels,
+   * greater than 0. 1. @default 1
+   */
+  maxReprojectionErrorPx?: number;
+  /** Maximum relative difference between the depths of two photos that agree. 0.01. @default 0.01 */
+  maxDepthDifference?: number;
+  /** Maximum angle between the normals of two photos that agree, degrees. 30. @default 30 */
+  maxNormalAngleDeg?: number;
+  /** Equal seeds give equal results. 0. @default 0 */
+  seed?: number;
+}
+
+/** Undistorted photo with its neighbors and depth range. */
+export interface MvsView {
+  /** Index of the photo in the reconstruction. */
+  photo: number;
+  /** Camera without distortion, with the size of the image. */
+  camera: PosedCamera;
+  /** Undistorted pixels. */
+  image: RgbImage;
+  /** Indices of the views to compare with, best first. */
+  neighbors: Uint32Array;
+  /** Smallest and largest depth to search, in the unit of the reconstruction. */
+  depthRange: Float64Array;
+}
+
+/** Undistorted photo with its neighbors and depth range. */
+export interface MvsViewLike {
+  /** Index of the photo in the reconstruction. */
+  photo: number;
+  /** Camera without distortion, with the size of the image. */
+  camera: PosedCameraLike;
+  /** Undistorted pixels. */
+  image: ImageLike;
+  /** Indices of the views to compare with, best first; 1 to 16. */
+  neighbors: ArrayLike<number>;
+  /** Smallest and largest depth to search. */
+  depthRange: ArrayLike<number>;
+}
+
 /** The two nearest descriptors of each descriptor. */
 export interface Neighbors {
   /** Index of the nearest. */
@@ -817,6 +1080,42 @@ export interface NviewPoint {
   pointInWorld: Float64Array;
   /** Root mean square of its reprojection errors, pixels. */
   rmsErrorPx: number;
+}
+
+/** Options of visual odometry. */
+export interface OdometryOptions {
+  /**
+   * Thresholds, in pixels and degrees. Frames are closer together than images of a collection, so
+   * smaller angles are accepted: 0.3 degrees for points, 1 for the initial pair. @default {
+   * maxRegistrationErrorPx: 3, maxReprojectionErrorPx: 2, minAngleDeg: 0.3, minNumInliers: 15,
+   * minStartAngleDeg: 1, minTrackLength: 2, ransac: { budget: "withoutReplacement", confidence: 0.999,
+   * innerIterations: 4, localOptimization: true, maxErrorPx: 1.5, maxIterations: 10000, minIterations:
+   * 200, sampler: "uniform", score: "msac", scoreEveryTrial: false, seed: 0, threshold: "given" },
+   * refineDistortion: false, refineFocal: false, refinePrincipalPoint: false, refineTangential: false,
+   * seed: 0 }
+   */
+  sfm?: SfmOptions;
+  /** Number of keyframes that are refined together; older ones are fixed. 8. @default 8 */
+  window?: number;
+  /**
+   * Refine everything at the end, repeatedly until a refined focal length converges. True. @default true
+   */
+  finalAdjustment?: boolean;
+}
+
+/** Path of a camera. */
+export interface OdometryResult {
+  /**
+   * Pose of the camera of each frame in the world; null if it was lost. The first frame found is the
+   * origin.
+   */
+  worldFromCam: (RigidTransform | null)[];
+  /** Frames that provide points. */
+  keyframes: Uint32Array;
+  /** Frames that could not be registered. */
+  lost: Uint32Array;
+  /** Cameras and points; for a rig, the left cameras followed by the right ones. */
+  reconstruction: Reconstruction;
 }
 
 /** Pose graph after its optimization. */
@@ -841,6 +1140,55 @@ export interface OrbOptions {
   upright?: boolean;
 }
 
+/** Two overlapping photos and their inliers. */
+export interface Overlap {
+  /** Index of the first photo. */
+  image1: number;
+  /** Index of the second photo. */
+  image2: number;
+  /** Inliers in the first photo, interleaved. */
+  pixels1: Float64Array;
+  /** Their matches in the second photo, interleaved. */
+  pixels2: Float64Array;
+  /** Homography from the first photo to the second. */
+  homography: Float64Array;
+  /** Number of matches, including outliers. */
+  numMatches: number;
+  /** Whether the matches show parallax: the camera moved, and no homography fits all of them. */
+  hasParallax: boolean;
+}
+
+/** Two overlapping photos and their inliers. */
+export interface OverlapLike {
+  /** Index of the first photo. */
+  image1: number;
+  /** Index of the second photo. */
+  image2: number;
+  /** Inliers in the first photo. */
+  pixels1: Points2;
+  /** Their matches in the second photo. */
+  pixels2: Points2;
+  /** Homography from the first photo to the second. */
+  homography: Matrix;
+  /** Number of matches, including outliers. That of the inliers if not given. */
+  numMatches?: number;
+  /** Whether the matches show parallax. False if not given. */
+  hasParallax?: boolean;
+}
+
+/** Options of `findOverlap`. */
+export interface OverlapOptions {
+  /**
+   * Robust estimation of the homography, with a threshold of 3 px. @default { budget:
+   * "withoutReplacement", confidence: 0.999, innerIterations: 4, localOptimization: true, maxErrorPx: 3,
+   * maxIterations: 10000, minIterations: 200, sampler: "uniform", score: "msac", scoreEveryTrial: false,
+   * seed: 0, threshold: "given" }
+   */
+  ransac?: RansacOptions;
+  /** Minimum number of inliers. 12. @default 12 */
+  minNumInliers?: number;
+}
+
 /** Matches between two photos. */
 export interface PairMatches {
   /** Index of the first photo. */
@@ -859,6 +1207,53 @@ export interface PairMatchesLike {
   image2: number;
   /** Matches between their keypoints. */
   matches: MatchesLike;
+}
+
+/** Photos in the frame of a panorama, which looks along z with y down. */
+export interface Panorama {
+  /** Matrix of each photo from directions of the panorama to homogeneous pixels; null without overlap. */
+  pixelFromDirection: (Float64Array | null)[];
+  /** Rotation of each camera, for rotating cameras: `dInCam = R d`. */
+  rotations: (Float64Array | null)[];
+  /** Pixels per unit of a direction at z = 1: the focal length, for rotating cameras. */
+  scalePx: number;
+  /** Common factor of the focal lengths, if it was estimated. */
+  focalFactor: number | null;
+}
+
+/** Photos in the frame of a panorama, which looks along z with y down. */
+export interface PanoramaLike {
+  /**
+   * Matrix of each photo from directions of the panorama to homogeneous pixels; null for photos to leave
+   * out.
+   */
+  pixelFromDirection: readonly (Matrix | null)[];
+  /** Rotation of each camera. */
+  rotations?: readonly (Matrix | null)[] | null;
+  /** Pixels per unit of a direction at z = 1. */
+  scalePx: number;
+  /** Common factor of the focal lengths. */
+  focalFactor?: number | null;
+}
+
+/** Keypoints of a photo with their colors and descriptors. */
+export interface PhotoFeatures {
+  /** Keypoints and their colors. */
+  image: SfmImage;
+  /** Descriptors of the keypoints. */
+  descriptors: Descriptors;
+  /** The keypoints with their scales and directions. */
+  keypoints: Keypoints;
+}
+
+/** Keypoints of a photo with their descriptors. */
+export interface PhotoFeaturesLike {
+  /** Keypoints and their colors. */
+  image: SfmImageLike;
+  /** Descriptors of the keypoints. */
+  descriptors: Descriptors;
+  /** The keypoints with their scales and directions. */
+  keypoints?: KeypointsLike;
 }
 
 /** Options of `photoFeatures` and `matchFeatures`. */
@@ -938,6 +1333,30 @@ export interface PlaneSimilarity {
   tu: number;
   /** Translation along v, pixels. */
   tv: number;
+}
+
+/** Points in space: entry k of each array belongs to point k; optional arrays may be empty. */
+export interface PointCloud {
+  /** Positions, interleaved. */
+  points: Float64Array;
+  /** Colors, 3 bytes each. */
+  colors: Uint8Array;
+  /** Unit normals, interleaved. */
+  normals: Float64Array;
+  /** Number of photos that agree on each point. */
+  confidences: Float32Array;
+}
+
+/** Points in space: entry k of each array belongs to point k. */
+export interface PointCloudLike {
+  /** Positions. */
+  points: Points3;
+  /** Colors, 3 bytes each. */
+  colors?: Uint8Array | Uint8ClampedArray;
+  /** Unit normals. */
+  normals?: Points3;
+  /** Number of photos that agree on each point. */
+  confidences?: ArrayLike<number>;
 }
 
 /** Points of 2 coordinates each: interleaved, or an array of 2 each. */
@@ -1101,6 +1520,34 @@ export interface Reconstruction {
   isPlaced: boolean;
 }
 
+/** Reconstruction as a bundle. */
+export interface ReconstructionBundle {
+  /** Cameras, points and observations. */
+  bundle: Bundle;
+  /** Index of the photo of each camera. */
+  imageOfCamera: Uint32Array;
+}
+
+/** Cameras and points in one frame. */
+export interface ReconstructionLike {
+  /** Camera of each photo; null if it is not registered. */
+  cameras: readonly (PosedCameraLike | null)[];
+  /** Points in the world. */
+  points: Points3;
+  /** Color of each point, 3 bytes each. Gray if not given. */
+  colors?: Uint8Array | Uint8ClampedArray;
+  /** Root mean square of the reprojection errors of each point. 0 if not given. */
+  errorsPx?: ArrayLike<number>;
+  /** Index of the point of each observation. */
+  observationPoint: ArrayLike<number>;
+  /** Index of the photo of each observation. */
+  observationImage: ArrayLike<number>;
+  /** Index of the keypoint of each observation. */
+  observationKeypoint: ArrayLike<number>;
+  /** Whether it stands where the known positions of its photos are. False if not given. */
+  isPlaced?: boolean;
+}
+
 /** Rectification of a rig: matches share a row, or a column if it is vertical. */
 export interface Rectification {
   /** Homography from undistorted pixels of image 1 to the rectified image. */
@@ -1163,12 +1610,28 @@ export interface RefineOptions {
   tolerancePx?: number;
 }
 
+/** Reconstruction after the correction of its lenses. */
+export interface RefinedLenses {
+  /** Cameras and points. */
+  reconstruction: Reconstruction;
+  /** Whether they changed. */
+  isRefined: boolean;
+}
+
 /** Rotation and direction of translation. */
 export interface RelativePose {
   /** Rotation matrix R, 9 numbers by row: `x_in_cam2 = R x_in_cam1 + t`. */
   rotation: Float64Array;
   /** Unit vector t. */
   direction: Float64Array;
+}
+
+/** Errors of the motions between frames. */
+export interface RelativePoseError {
+  /** Errors of the translations, in the unit of the trajectories. */
+  translation: ErrorStatistics;
+  /** Errors of the rotations, degrees. */
+  rotationDeg: ErrorStatistics;
 }
 
 /** Measured rotation between two views. */
@@ -1179,6 +1642,28 @@ export interface RelativeRotation {
   to: number;
   /** Rotation from the frame of the first view to that of the second. */
   toFromFrom: RigidTransformLike;
+}
+
+/** Options of `renderPanorama`. */
+export interface RenderOptions {
+  /** Projection surface. A cylinder. @default "cylinder" */
+  surface?: "plane" | "cylinder" | "sphere";
+  /** Blending. Bands. @default "bands" */
+  blend?: "bands" | "feather" | "seams";
+  /** Whether to compensate exposure. True. @default true */
+  gains?: boolean;
+  /** Maximum number of pixels; larger results are downscaled. 100 million. @default 100000000 */
+  maxPixels?: number;
+}
+
+/** Red, green and blue, a byte each, rows from top to bottom. */
+export interface RgbImage {
+  /** Pixels. */
+  width: number;
+  /** Pixels. */
+  height: number;
+  /** Values. */
+  data: Uint8Array;
 }
 
 /** Two cameras mounted on a rig. */
@@ -1215,6 +1700,18 @@ export interface RigidTransformLike {
   quaternion?: ArrayLike<number>;
   /** Zero if not given. */
   translation?: ArrayLike<number>;
+}
+
+/** Rotation and focal length that explain nearly all inliers of a model. */
+export interface RotationAndFocal {
+  /** Rotation, with a translation of 0. */
+  cam2FromCam1: RigidTransform;
+  /** Ratio of the focal lengths to the given ones. */
+  focalFactor: number;
+  /** Number of unique matches that it explains. */
+  numExplained: number;
+  /** Number of unique matches. */
+  numInliers: number;
 }
 
 /** Motion with most points in front of both cameras. */
@@ -1319,6 +1816,16 @@ export interface SfmResult {
   steps: SfmStep[];
 }
 
+/** Result of structure from motion. */
+export interface SfmResultLike {
+  /** Reconstructions that could not be connected. */
+  components: readonly ReconstructionLike[];
+  /** Indices of photos that are in none. */
+  unregistered: ArrayLike<number>;
+  /** Ignored. */
+  steps?: unknown;
+}
+
 /** Step of structure from motion. */
 export interface SfmStep {
   /** Kind: started, registered or adjusted. */
@@ -1378,6 +1885,26 @@ export interface SiftOptions {
   upright?: boolean;
   /** Scaling of descriptors. @default "l2" */
   normalization?: "l2" | "root";
+}
+
+/** A similarity of space: `xInA = scale * R * xInB + t`. */
+export interface Similarity3 extends RigidTransform {
+  /** Ratio of lengths. */
+  scale: number;
+}
+
+/** A rotation, a translation and a scale. */
+export interface Similarity3Like extends RigidTransformLike {
+  /** Ratio of lengths. 1 if not given. */
+  scale?: number;
+}
+
+/** Similarity between two lists of points. */
+export interface SimilarityOfPoints {
+  /** From the first list to the second. */
+  toFromFrom: Similarity3;
+  /** 1 for pairs that agree, otherwise 0. */
+  inliers: Uint8Array;
 }
 
 /** Dense disparity of a rectified pair by block matching. */
@@ -1447,6 +1974,20 @@ export interface StructureTensorOptions {
   border?: "replicate" | "reflect101" | { constant: number };
 }
 
+/** Options of `textureMesh`. */
+export interface TextureOptions {
+  /**
+   * Maximum width and height of the image, pixels, 64 to 16384; larger ones are downscaled. 8192.
+   * @default 8192
+   */
+  maxSizePx?: number;
+  /**
+   * Cost of a seam along an edge, relative to the worst view of a triangle, 0 to 10: larger values give
+   * fewer and larger pieces. 0.5. @default 0.5
+   */
+  seamCost?: number;
+}
+
 /** Options of `trackLucasKanade`. */
 export interface TrackOptions {
   /** Half the side of the window, pixels, 1 to 50. @default 10 */
@@ -1479,6 +2020,14 @@ export interface Tracks {
   residuals: Float32Array;
   /** Distance between each point and itself tracked back, pixels; NaN without that check. */
   forwardBackwardPx: Float64Array;
+}
+
+/** Error of a trajectory. */
+export interface TrajectoryError {
+  /** Distances of the centers, in the unit of the truth. */
+  errors: ErrorStatistics;
+  /** Alignment. */
+  truthFromEstimated: Similarity3;
 }
 
 /** Options of the two-view model choice. */
@@ -1648,6 +2197,21 @@ export interface Undistortion {
   map: PixelMap;
 }
 
+/** Pair of photos with matches that agree with one motion. */
+export interface VerifiedPair {
+  /** Verified matches. */
+  pair: PairMatches;
+  /** Motion of the camera, with a translation of length 1. */
+  cam2FromCam1: RigidTransform;
+  /**
+   * Median angle at which rays of the matches meet, radians; 0 if a plane and a pure rotation explain
+   * them.
+   */
+  medianAngleRad: number;
+  /** Whether a homography explains most matches. */
+  isFlat: boolean;
+}
+
 /** Options of a warp. */
 export interface WarpOptions {
   /** Width of the result, pixels. @default null */
@@ -1736,6 +2300,8 @@ export interface Functions {
   intrinsicsMatrix(intrinsics: Intrinsics): Promise<Float64Array>;
   /** Projection matrix K [R | t] of a camera, 12 numbers by row, for undistorted pixels. */
   projectionMatrix(camera: PosedCameraLike): Promise<Float64Array>;
+  /** Homography between the rays of two cameras of any lens, from matches with outliers, by RANSAC. */
+  estimateHomographyCalibrated(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
   /** Fundamental matrix of matches with outliers, by RANSAC: `x2' F x1 = 0`, unit norm. */
   estimateFundamental(pixels1: Points2, pixels2: Points2, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
   /** Essential matrix of matches with outliers, by RANSAC: unit norm. */
@@ -1773,6 +2339,11 @@ export interface Functions {
   refineRelativePose(cam2FromCam1: RigidTransformLike, pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } }): Promise<RelativePose>;
   /** Sampson distances of matches from a fundamental matrix, pixels. */
   sampsonPx(fundamental: Matrix, pixels1: Points2, pixels2: Points2): Promise<Float64Array>;
+  /**
+   * Sampson distances of matches through lenses from a motion, pixels; Infinity behind a camera, NaN for
+   * pixels without a ray.
+   */
+  tangentSampsonPx(cam2FromCam1: RigidTransformLike, pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera): Promise<Float64Array>;
   /** Symmetric epipolar distances of matches from a fundamental matrix, pixels. */
   symmetricEpipolarPx(fundamental: Matrix, pixels1: Points2, pixels2: Points2): Promise<Float64Array>;
   /**
@@ -1873,6 +2444,17 @@ export interface Functions {
   estimateTwoViewCalibrated(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, options?: TwoViewOptions & Control): Promise<TwoViewReport>;
   /** Rotation matrix `cam2FromCam1` of two calibrated views from the same place, by RANSAC. */
   estimateRotation(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, options?: RansacOptions & Control): Promise<RansacReport<Float64Array>>;
+  /**
+   * Reason why the inliers of F or E do not determine it: they did not move, or a homography explains
+   * them; null if there is none.
+   */
+  findDegeneracy(pixels1: Points2, pixels2: Points2, inliers: ArrayLike<number>, options?: TwoViewOptions & Control): Promise<Degeneracy | null>;
+  /** The degeneracy of a model nearly all of whose inliers did not move; null if they did. */
+  findUnmoved(pixels1: Points2, pixels2: Points2, inliers: ArrayLike<number>, options?: TwoViewOptions & Control): Promise<Degeneracy | null>;
+  /** Rotation that explains the inliers of a model equally well; null if none does. */
+  findExplainingRotation(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, inliers: ArrayLike<number>, options?: TwoViewOptions & Control): Promise<ExplainingRotation | null>;
+  /** Rotation and factor of the focal lengths that explain the inliers of a model; null if none do. */
+  findRotationAndFocal(pixels1: Points2, pixels2: Points2, camera1: Camera, camera2: Camera, inliers: ArrayLike<number>, options?: TwoViewOptions & Control): Promise<RotationAndFocal | null>;
   /** Draws points and two cameras that see them. */
   twoViewProblem(options?: TwoViewProblemOptions & Control): Promise<TwoViewProblem>;
   /** Draws points and cameras that see them. */
@@ -1898,6 +2480,23 @@ export interface Functions {
   warpPerspective(image: ImageSource, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
   /** Image moved by an affine map, 2 x 3, from its pixels to those of the result. */
   warpAffine(image: ImageSource, outFromImage: Matrix, options?: WarpOptions & Control): Promise<ImageOfKind>;
+  /**
+   * Image of another size: means over the area of each new pixel where it shrinks, interpolated where it
+   * grows.
+   */
+  resize(image: ImageSource, width: number, height: number): Promise<GrayImage>;
+  /** Image smoothed and reduced to half its size, rounded up. */
+  pyramidDown(image: ImageSource, border?: "replicate" | "reflect101" | { constant: number }): Promise<GrayImage>;
+  /** Image enlarged to a size that `pyramidDown` would halve to its own. */
+  pyramidUp(image: ImageSource, width: number, height: number): Promise<GrayImage>;
+  /** Image and its halves, at most `numLevels`, down to one pixel. */
+  gaussianPyramid(image: ImageSource, numLevels: number): Promise<GrayImage[]>;
+  /** Differences between the levels of a Gaussian pyramid, and its last level. */
+  laplacianPyramid(image: ImageSource, numLevels: number): Promise<GrayImage[]>;
+  /** Image of a Laplacian pyramid. */
+  fromLaplacianPyramid(levels: readonly ImageSource[]): Promise<GrayImage>;
+  /** Amount of detail of a few pixels, which blur removes: for photos of one scene and size. */
+  sharpness(image: ImageSource): Promise<number>;
   /** Gray values in [0, 1] in which features of a photo are detected. */
   photoToGray(photo: ImageSource): Promise<GrayImage>;
   /** Features of the kind that the options name, strongest first. */
@@ -1908,6 +2507,11 @@ export interface Functions {
   detectOrb(image: ImageSource, options?: OrbOptions & Control): Promise<Features>;
   /** SIFT descriptors of given keypoints. */
   describeSift(image: ImageSource, keypoints: KeypointsLike, options?: SiftOptions & Control): Promise<Descriptors>;
+  /**
+   * Gray values in a square around each keypoint, `size` x `size` at distances of `spacingPx`, with mean
+   * 0 and length 1.
+   */
+  describePatches(image: ImageSource, keypoints: KeypointsLike, size: number, spacingPx: number): Promise<Descriptors>;
   /** Corner response of Harris with its factor k, such as 0.05. */
   harrisResponse(image: ImageSource, k: number, options?: StructureTensorOptions & Control): Promise<GrayImage>;
   /** Smaller eigenvalue of the structure tensor. */
@@ -1959,6 +2563,13 @@ export interface Functions {
    * `rangePx`.
    */
   removeSpeckles(disparity: GrayImage, minSize: number, rangePx: number): Promise<GrayImage>;
+  /**
+   * Disparities with all gaps filled by the background beside them, along edges of the left image, which
+   * has bytes.
+   */
+  fillGaps(disparity: GrayImage, left: ImageSource): Promise<GrayImage>;
+  /** Matrix Q of a rectified rig, for `pointCloud`, 16 numbers by row. */
+  qFromRig(focalPx: number, baselineM: number, cuPx: number, cvPx: number): Promise<Float64Array>;
   /** Depth of every pixel, meters; NaN without disparity or where it is not positive. */
   depthImage(disparity: GrayImage, focalPx: number, baselineM: number): Promise<GrayImage>;
   /** Points of all pixels with a disparity, interleaved, by the matrix Q of a rectification. */
@@ -2034,4 +2645,104 @@ export interface Functions {
    * width of the loss is in radians.
    */
   averageRotations(measured: readonly RelativeRotation[], numViews: number, loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } }, options?: Control): Promise<AveragedRotations>;
+  /** Keypoints of a photo, their colors and descriptors. */
+  photoFeatures(photo: ImageSource, options?: PhotoOptions & Control): Promise<PhotoFeatures>;
+  /** Matches between all pairs of photos, or between photos that are near in order. */
+  matchFeatures(features: readonly PhotoFeaturesLike[], options?: PhotoOptions & Control): Promise<PairMatches[]>;
+  /** Matches between the photos of a rectified rig that are in the same row, within 2 pixels. */
+  matchRectified(left: PhotoFeaturesLike, right: PhotoFeaturesLike, options?: PhotoOptions & Control): Promise<Matches>;
+  /**
+   * Pose of another photo in a reconstruction, from `photoFeatures` of it and of all photos of the
+   * reconstruction, in order.
+   */
+  localize(reconstruction: ReconstructionLike, features: readonly PhotoFeaturesLike[], photo: PhotoFeaturesLike, camera: Camera, options?: LocalizeOptions & Control): Promise<Localization>;
+  /**
+   * Tracks from verified matches: at most one keypoint per photo each. `numKeypoints` has the number of
+   * keypoints of each photo.
+   */
+  buildTracks(numKeypoints: ArrayLike<number>, pairs: readonly PairMatchesLike[]): Promise<KeypointTracks>;
+  /** Matches of two photos that agree with one motion of the camera; null if too few do. */
+  verifyMatches(pair: PairMatchesLike, image1: SfmImageLike, image2: SfmImageLike, camera1: Camera, camera2: Camera, options?: SfmOptions & Control): Promise<VerifiedPair | null>;
+  /**
+   * Points from matches between photos with known poses, which do not change. `cameras` has one camera
+   * for each photo, or one for all; photos with the pose null are ignored.
+   */
+  triangulateTracks(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], camFromWorld: readonly (RigidTransformLike | null)[], options?: SfmOptions & Control): Promise<Reconstruction>;
+  /**
+   * Path of a single camera, up to scale, from frames in order of time and matches between frames that
+   * are close. `cameras` has one camera for each frame, or one for all.
+   */
+  monocularOdometry(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], options?: OdometryOptions & Control): Promise<OdometryResult>;
+  /**
+   * Path of a rig, in the unit of its baseline. `images`, `cameras` and `pairs` are those of the left
+   * camera, `right` the same frames of the right camera, and `leftRight` has the matches between the two
+   * images of each frame.
+   */
+  stereoOdometry(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], right: readonly SfmImageLike[], leftRight: readonly MatchesLike[], rightFromLeft: RigidTransformLike, rightCamera: Camera, options?: OdometryOptions & Control): Promise<OdometryResult>;
+  /** Reconstruction in another world, moved by a similarity. */
+  moveReconstruction(reconstruction: ReconstructionLike, toFromWorld: Similarity3Like): Promise<Reconstruction>;
+  /** Mean length of the reprojection errors of all observations, pixels. */
+  meanReprojectionPx(reconstruction: ReconstructionLike, images: readonly SfmImageLike[]): Promise<number>;
+  /** Bundle of a reconstruction, for `adjustBundle`. */
+  reconstructionBundle(reconstruction: ReconstructionLike, images: readonly SfmImageLike[]): Promise<ReconstructionBundle>;
+  /** Whether the photos determine the focal lengths of their lenses. */
+  determinesFocal(reconstruction: ReconstructionLike, images: readonly SfmImageLike[]): Promise<boolean>;
+  /**
+   * Corrects focal lengths and radial distortion of all lenses, if the photos determine them and the
+   * errors become clearly smaller.
+   */
+  refineLenses(reconstruction: ReconstructionLike, images: readonly SfmImageLike[], options?: Control): Promise<RefinedLenses>;
+  /**
+   * Why each of the `unregistered` photos of a result of `reconstruct` is in no reconstruction, a
+   * sentence each. The other arguments are those of `reconstruct`.
+   */
+  whyUnregistered(images: readonly SfmImageLike[], cameras: readonly Camera[], pairs: readonly PairMatchesLike[], result: SfmResultLike, options?: SfmOptions & Control): Promise<string[]>;
+  /** Similarity that moves points best onto others, by least squares; "rigid" keeps the scale. */
+  alignPoints(fromPoints: Points3, toPoints: Points3, kind?: "rigid" | "similarity"): Promise<Similarity3>;
+  /** Distances between camera centers and their true ones after alignment. */
+  absoluteTrajectoryError(estimated: Points3, truth: Points3, kind?: "rigid" | "similarity"): Promise<TrajectoryError>;
+  /** Errors of the motions over `step` frames, 1 if not given, between poses `worldFromCam`. */
+  relativePoseError(estimated: readonly RigidTransformLike[], truth: readonly RigidTransformLike[], step?: number): Promise<RelativePoseError>;
+  /**
+   * Similarity between two lists of points with outliers, by RANSAC. `maxDistance` is the threshold of
+   * an inlier, in the unit of the second list.
+   */
+  estimateSimilarityOfPoints(fromPoints: Points3, toPoints: Points3, maxDistance: number, seed?: number): Promise<SimilarityOfPoints>;
+  /**
+   * Spreads the error of closed loops over a path, with its scale unless `motion` is "rigid". The first
+   * frame stays where it is. The width of the loss is in standard deviations.
+   */
+  closeLoops(worldFromCam: readonly RigidTransformLike[], loops: readonly LoopClosure[], motion?: "rigid" | "similarity", loss?: "trivial" | { huber: { width: number } } | { cauchy: { width: number } } | { truncated: { width: number } }, options?: Control): Promise<ClosedPath>;
+  /**
+   * Photos of a reconstruction, undistorted and downscaled, with the neighbors and the depth range of
+   * each. Photos that share no points with another at a sufficient angle are left out.
+   */
+  prepareViews(reconstruction: ReconstructionLike, photos: readonly ImageSource[], options?: MvsOptions & Control): Promise<MvsView[]>;
+  /** Depth and normal of each pixel of each view by PatchMatch, where enough views agree. */
+  estimateDepthMaps(views: readonly MvsViewLike[], options?: MvsOptions & Control): Promise<DepthMap[]>;
+  /** Point cloud of depth maps, with normals, colors and confidences. */
+  fuseDepthMaps(views: readonly MvsViewLike[], maps: readonly DepthMap[], options?: MvsOptions & Control): Promise<PointCloud>;
+  /** Mesh of depth maps, with normals and colors; it has holes where no photo shows the surface. */
+  meshDepthMaps(views: readonly MvsViewLike[], maps: readonly DepthMap[], options?: MeshOptions & Control): Promise<Mesh>;
+  /** Texture of a mesh from the photos: each triangle takes its pixels from one of them, with few seams. */
+  textureMesh(mesh: MeshLike, views: readonly MvsViewLike[], options?: TextureOptions & Control): Promise<MeshTexture>;
+  /**
+   * Homography on which the matches of two photos agree, with its inliers; null if no more matches agree
+   * than wrong ones might by chance. `image1` and `image2` are the indices of the photos.
+   */
+  findOverlap(image1: number, image2: number, pixels1: Points2, pixels2: Points2, options?: OverlapOptions & Control): Promise<Overlap | null>;
+  /**
+   * Rotations of photos from one position, from their overlaps and the intrinsics of each. With
+   * `findFocal`, also a common factor of all focal lengths, from 1/4 to 4.
+   */
+  estimatePanorama(intrinsics: readonly Intrinsics[], overlaps: readonly OverlapLike[], findFocal?: boolean, options?: Control): Promise<Panorama>;
+  /**
+   * Positions of `numImages` photos of one plane, by homographies from one to the next; to render on the
+   * surface "plane".
+   */
+  chainHomographies(numImages: number, overlaps: readonly OverlapLike[]): Promise<Panorama>;
+  /** Picture of all photos of a panorama, blended; black where there is none. */
+  renderPanorama(panorama: PanoramaLike, photos: readonly ImageSource[], options?: RenderOptions & Control): Promise<RgbImage>;
+  /** Position east, north and up of an origin, meters. */
+  localFromGeodetic(place: Geodetic, origin: Geodetic): Promise<Float64Array>;
 }

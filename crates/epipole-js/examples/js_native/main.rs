@@ -4,7 +4,11 @@
 //! The file is a list of calls: name, arguments, result or error. Numbers are the hexadecimal bytes
 //! of arrays in little endian.
 
+mod degeneracies;
+mod dense;
 mod geometry;
+mod motion;
+mod panoramas;
 mod pictures;
 mod scenes;
 mod values;
@@ -92,13 +96,18 @@ impl Calls {
         self.add_absolute_pose(&world, &exact)?;
         self.add_lines()?;
         self.add_two_view(&world, &wall, &exact)?;
+        self.add_degeneracies(&world, &wall)?;
         self.add_bundle()?;
         self.add_imaging()?;
+        self.add_pyramids()?;
         self.add_windows()?;
         self.add_warps(&exact)?;
         self.add_calibration()?;
         self.add_reconstruction()?;
         self.add_graphs()?;
+        self.add_motion()?;
+        self.add_places()?;
+        self.add_panoramas()?;
         self.add_features()?;
         self.add_stereo(&exact)
     }

@@ -29,6 +29,27 @@ impl Calls {
         Ok(())
     }
 
+    pub(super) fn add_pyramids(&mut self) -> Result<(), Failure> {
+        let gray = texture(41, 30, 0);
+        let size = |u: f64, v: f64| [Value::Number(u), Value::Number(v)];
+        for (width, height) in [(20.0, 15.0), (60.0, 50.0)] {
+            let [width, height] = size(width, height);
+            self.add("resize", &[gray.clone(), width, height])?;
+        }
+        let [width, none] = size(20.0, 0.0);
+        self.fail("resize", &[gray.clone(), width, none])?;
+        let half = self.add("pyramidDown", &[gray.clone(), text("replicate")])?;
+        let [width, height] = size(41.0, 30.0);
+        self.add("pyramidUp", &[half, width, height])?;
+        let levels = Value::Number(4.0);
+        self.add("gaussianPyramid", &[gray.clone(), levels.clone()])?;
+        let bands = self.add("laplacianPyramid", &[gray.clone(), levels])?;
+        self.add("fromLaplacianPyramid", &[bands])?;
+        self.fail("fromLaplacianPyramid", &[Value::List(Vec::new())])?;
+        self.add("sharpness", &[gray])?;
+        Ok(())
+    }
+
     pub(super) fn add_windows(&mut self) -> Result<(), Failure> {
         let gray = texture(96, 64, 0);
         let response = self.add("harrisResponse", &[gray.clone(), Value::Number(0.05)])?;
@@ -65,10 +86,11 @@ impl Calls {
             self.add("nearestTwo", &descriptors)?;
             self.add("matchDescriptors", &descriptors)?;
             if name == "detectSift" {
-                self.add(
-                    "describeSift",
-                    &[first.clone(), get(&features1, "keypoints")],
-                )?;
+                let described = [first.clone(), get(&features1, "keypoints")];
+                self.add("describeSift", &described)?;
+                let [image, keypoints] = described;
+                let (size, spacing) = (Value::Number(8.0), Value::Number(1.5));
+                self.add("describePatches", &[image, keypoints, size, spacing])?;
             }
         }
         self.add("harrisResponse", &[gray1.clone(), Value::Number(0.05)])?;
@@ -98,7 +120,11 @@ impl Calls {
         )?;
         let (size, range) = (Value::Number(20.0), Value::Number(1.0));
         let clean = self.add("removeSpeckles", &[found, size, range])?;
+        self.add("fillGaps", &[clean.clone(), left.clone()])?;
+        self.fail("fillGaps", &[clean.clone(), floats(&left)])?;
         let (focal, baseline) = (Value::Number(500.0), Value::Number(0.1));
+        let (cu, cv) = (Value::Number(47.5), Value::Number(31.5));
+        self.add("qFromRig", &[focal.clone(), baseline.clone(), cu, cv])?;
         self.add(
             "depthImage",
             &[clean.clone(), focal.clone(), baseline.clone()],

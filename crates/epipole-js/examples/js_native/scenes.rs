@@ -229,7 +229,13 @@ impl Calls {
 }
 
 /// Camera with its principal point in the middle.
-fn camera(width: f64, height: f64, focal: f64, kind: &str, coefficients: Vec<f64>) -> Value {
+pub(crate) fn camera(
+    width: f64,
+    height: f64,
+    focal: f64,
+    kind: &str,
+    coefficients: Vec<f64>,
+) -> Value {
     record([
         ("width", Value::Number(width)),
         ("height", Value::Number(height)),
@@ -253,7 +259,7 @@ fn camera(width: f64, height: f64, focal: f64, kind: &str, coefficients: Vec<f64
 }
 
 /// Photo of two walls that meet in an edge, by a camera moved along x.
-fn wedge(width: usize, height: usize, along: f64) -> Value {
+pub(crate) fn wedge(width: usize, height: usize, along: f64) -> Value {
     let focal = 150.0;
     let gray = |place: usize| {
         let u = (place % width) as f64 - (width - 1) as f64 / 2.0;

@@ -1,10 +1,10 @@
 //! Features of photos and matches between them.
 
-use crate::argument::{Argument, Vectors, check_keys, entry, not};
+use crate::argument::{Argument, Vectors, check_keys, entry};
 use crate::fault::{Fault, Result};
 use crate::feature::Matches;
 use crate::functions::functions;
-use crate::images::Rgb;
+use crate::images::{Rgb, colors};
 use crate::options::{Options, Setting};
 use crate::output::{Bytes, Indices, Numbers, Output, structs};
 use crate::types::Types;
@@ -85,17 +85,7 @@ impl Argument for SfmImage {
 
     fn read(name: &str, value: &Value) -> Result<Self> {
         check_keys(name, value, &["keypoints", "colors", "lens", "position"])?;
-        let colors = match value.get("colors") {
-            Value::Nothing => Vec::new(),
-            Value::Bytes(bytes) if bytes.len() % 3 == 0 => {
-                let colors = bytes.chunks_exact(3);
-                colors.map(|color| [color[0], color[1], color[2]]).collect()
-            }
-            other => {
-                let expected = "a Uint8Array of 3 bytes for each keypoint";
-                return Err(not(&format!("{name}.colors"), expected, other));
-            }
-        };
+        let colors = colors(name, value, "keypoint")?.unwrap_or_default();
         let position = entry::<Option<Setting<PositionPrior>>>(name, value, "position")?;
         Ok(Self {
             name: String::new(),
@@ -122,7 +112,10 @@ impl Output for PairMatches {
     }
 }
 
-impl Argument for PairMatches {
+/// Matches between two lists of keypoints, given by the caller.
+pub(crate) struct GivenMatches(pub(crate) Vec<Match>);
+
+impl Argument for GivenMatches {
     fn typescript(types: &mut Types) -> String {
         let indices = <Indices as Argument>::typescript(types);
         types.interface(
@@ -143,13 +136,24 @@ impl Argument for PairMatches {
                 ),
             ],
         );
+        "MatchesLike".to_owned()
+    }
+
+    fn read(name: &str, value: &Value) -> Result<Self> {
+        matches(name, value).map(Self)
+    }
+}
+
+impl Argument for PairMatches {
+    fn typescript(types: &mut Types) -> String {
+        let matches = GivenMatches::typescript(types);
         types.interface(
             "PairMatchesLike",
             "Matches between two photos.",
             &[
                 ("image1", "number", "Index of the first photo."),
                 ("image2", "number", "Index of the second photo."),
-                ("matches", "MatchesLike", "Matches between their keypoints."),
+                ("matches", &matches, "Matches between their keypoints."),
             ],
         );
         "PairMatchesLike".to_owned()
@@ -160,7 +164,7 @@ impl Argument for PairMatches {
         Ok(Self {
             image1: entry::<u32>(name, value, "image1")? as usize,
             image2: entry::<u32>(name, value, "image2")? as usize,
-            matches: matches(&format!("{name}.matches"), value.get("matches"))?,
+            matches: entry::<GivenMatches>(name, value, "matches")?.0,
         })
     }
 }

@@ -127,7 +127,8 @@ impl Argument for MeasuredRotation {
 /// Maximum number of vertices: more would exhaust the memory of a page.
 const MAX_VERTICES: u32 = 1 << 20;
 
-fn count(name: &str, value: u32) -> Result<usize> {
+/// Rejects counts that would exhaust the memory of a page.
+pub(crate) fn count(name: &str, value: u32) -> Result<usize> {
     match value <= MAX_VERTICES {
         true => Ok(value as usize),
         false => Err(Fault::of_range(format!(
@@ -136,7 +137,8 @@ fn count(name: &str, value: u32) -> Result<usize> {
     }
 }
 
-fn loss(loss: Option<Setting<RobustLoss>>) -> RobustLoss {
+/// Returns the given loss, or the square.
+pub(super) fn loss(loss: Option<Setting<RobustLoss>>) -> RobustLoss {
     loss.map_or(RobustLoss::Trivial, |loss| loss.0)
 }
 
