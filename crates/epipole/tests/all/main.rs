@@ -10,6 +10,7 @@ mod calibration_real;
 mod clustered_matches;
 mod examples;
 mod invariance_of_points;
+mod javascript;
 mod mvs_mesh;
 mod mvs_rendered;
 mod mvs_texture;

@@ -2,8 +2,19 @@
 
 use std::path::Path;
 
+/// The modules that export names.
+pub(super) fn rooms() -> Vec<String> {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let text = std::fs::read_to_string(source.join("lib.rs")).expect("the library's source");
+    let declared = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
+    let exports = declared.filter(|room| source.join(room).join("mod.rs").exists());
+    exports.map(str::to_owned).collect()
+}
+
 /// The public names of a module: those of its `pub use` declarations.
-fn public_names(room: &str) -> Vec<String> {
+pub(super) fn public_names(room: &str) -> Vec<String> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("src")
         .join(room)
@@ -75,7 +86,7 @@ fn of_formulas(file: &str) -> Vec<(String, Option<String>)> {
     names
 }
 
-fn camel_case(name: &str) -> String {
+pub(super) fn camel_case(name: &str) -> String {
     let mut upper = false;
     let mut letters = String::new();
     for c in name.chars() {
