@@ -209,7 +209,7 @@ for (const worker of [false, true]) {
     assert.ok(Math.abs(slope(await vision.fitLineHuber(points.slice(0, 5), 1)) - 1) < 1e-9);
     assert.equal(await vision.numTrialsWithReplacement(0.5, 8, 0.99), 1177);
     assert.equal(await vision.numTrialsWithReplacement(0, 8, 0.99), Infinity);
-    await assert.rejects(vision.numTrialsWithReplacement(1.5, 8, 0.99), /^RangeError: the share of inliers .* 1.5$/);
+    await assert.rejects(vision.numTrialsWithReplacement(1.5, 8, 0.99), /^RangeError: the inlier ratio .* 1.5$/);
   });
 
   withVision("the eight-point method shows its condition, which normalization lowers", async (vision) => {
