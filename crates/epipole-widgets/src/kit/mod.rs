@@ -21,9 +21,11 @@
 //! | [`standing`] | photographs in 3D views |
 //! | [`reconstruction`] | from two photographs to cameras and points in 3D, stage by stage |
 //! | [`geometry`] | the epipolar geometry of two cameras |
+//! | [`guess`] | a hidden answer and the reader's guess |
 //! | [`grid`] | titled panels in rows, breakpoints, notices |
 //! | [`plot`] | axes, linear or logarithmic, and curves |
 //! | [`plan`] | a top view |
+//! | [`board`] | a board for calibration, placed by its middle |
 //! | [`cells`] | cells with readable numbers |
 //! | [`heat`], [`terrain`] | numbers as colors, and as a terrain |
 //! | [`house`] | a wireframe house with cameras around it |
@@ -32,12 +34,14 @@
 //! | [`warped`] | a photograph through a homography |
 //! | [`labels`], [`legend`], [`words`] | labels of marks, legends, formatting of numbers |
 
+pub(crate) mod board;
 pub(crate) mod cells;
 pub(crate) mod changed;
 pub(crate) mod corners;
 pub(crate) mod features;
 pub(crate) mod geometry;
 pub(crate) mod grid;
+pub(crate) mod guess;
 pub(crate) mod heat;
 pub(crate) mod house;
 pub(crate) mod labels;

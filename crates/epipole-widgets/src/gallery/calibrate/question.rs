@@ -2,6 +2,7 @@
 //! of them.
 
 use crate::contract::{Problem, Progress};
+use crate::kit::board;
 use crate::kit::picture::Picture;
 use crate::kit::question::{self, tell};
 use epipole::Error;
@@ -135,16 +136,10 @@ const POSES: [([f64; 2], [f64; 3]); NUM_VIEWS] = [
 ];
 
 /// Returns the pose of the board in one of the photographs.
-fn pose(index: usize) -> RigidTransform {
+fn pose(board: &Board, index: usize) -> RigidTransform {
     let ([about_x, about_y], middle) = POSES[index];
-    let turn = Vector3::new(about_x.to_radians(), about_y.to_radians(), 0.0);
-    let turned = RigidTransform::rotation(turn);
-    // Marks are measured from the first corner; the center is 3.5 and 2.5 squares away.
-    let middle_in_board = Vector3::new(3.5 * SQUARE_M, 2.5 * SQUARE_M, 0.0);
-    RigidTransform::from_parts(
-        (Vector3::from(middle) - turned.rotation * middle_in_board).into(),
-        turned.rotation,
-    )
+    let tilt = Vector3::new(about_x.to_radians(), about_y.to_radians(), 0.0);
+    board::pose(board, tilt, &middle.into())
 }
 
 /// Renders the photographs and finds their boards, on the first call.
@@ -156,7 +151,14 @@ fn taken(board: &Board, progress: Progress<'_>) -> Result<&'static Taken, Error>
     let (camera, mut photographs, mut views) = (camera()?, Vec::new(), Vec::new());
     for index in 0..NUM_VIEWS {
         tell(progress, index as f64 / NUM_VIEWS as f64)?;
-        let image = render_board(board, &camera, &pose(index), NOISE, index as u64, &mut ())?;
+        let image = render_board(
+            board,
+            &camera,
+            &pose(board, index),
+            NOISE,
+            index as u64,
+            &mut (),
+        )?;
         views.push(match find_board(&image, board, &mut ())? {
             BoardSearch::Found(found) => Some(found),
             _ => None,

@@ -5,6 +5,7 @@ use crate::contract::{
     Model, Problem, Settings, Slider, Symbol, knobs, match_data,
 };
 use crate::kit::geometry::{Geometry, symbols};
+use crate::kit::guess::{self, Reveal};
 use crate::kit::points::{Points, number_of};
 use crate::kit::probe::{Probe, place_words};
 use crate::kit::scenes::{PHOTO_SIZE, Seen, in_picture, still_life_pair};
@@ -36,11 +37,7 @@ const SELECTED: Slider = Slider::new("selected", "Selected point")
 const SHOW: Choice = Choice::new(
     "show",
     "Show",
-    &[
-        ("lines", "Lines"),
-        ("guess", "Your guess"),
-        ("both", "Both"),
-    ],
+    &[("lines", "Lines"), guess::GUESS, guess::BOTH],
 );
 const KNOBS: &[Knob] = knobs![BASELINE, FORWARD, TURN, SHOW, SELECTED];
 const ADD: Button = Button::new("add", "Add a point", ButtonRole::Action).more();
@@ -117,12 +114,14 @@ impl EpipolarClick {
 
     /// Whether lines and matches are shown, rather than only the guess.
     pub(super) fn shows_lines(&self) -> bool {
-        self.settings.chosen(&SHOW) != 1
+        Reveal::of(&self.settings, &SHOW).shows_answer()
     }
 
     /// Returns the guess for the match of the selected point, if it is shown.
     pub(super) fn guess(&self) -> Option<Point2<f64>> {
-        (self.settings.chosen(&SHOW) != 0).then(|| self.guess.point())
+        Reveal::of(&self.settings, &SHOW)
+            .shows_guess()
+            .then(|| self.guess.point())
     }
 
     /// Returns the guess and the selected point, if the guess is compared with its match.

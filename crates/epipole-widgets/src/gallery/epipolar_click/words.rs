@@ -3,6 +3,7 @@
 use super::model::EpipolarClick;
 use crate::contract::{Readout, Words, format_number};
 use crate::kit::geometry::Geometry;
+use crate::kit::guess::NOT_COMPARED;
 use crate::kit::scenes::Seen;
 use crate::kit::words::{self, matrix, pixel, short_epipole, side};
 use nalgebra::Point2;
@@ -63,8 +64,8 @@ impl Words for EpipolarClick {
         vec![
             say("match", "Its match", told(pixel2.as_ref().map(pixel))).main_if(!is_guess),
             residual.or("none").main_if(!is_guess),
-            off.or("not compared").main_if(is_guess),
-            across.or("not compared").main_if(is_guess),
+            off.or(NOT_COMPARED).main_if(is_guess),
+            across.or(NOT_COMPARED).main_if(is_guess),
             say("e2", "Epipole e′", of(|all| short_epipole(&all.epipole2))).main(),
             say("point", "Selected point", point),
             say("sight", "Visible", told(matched.map(sight))),

@@ -1,11 +1,12 @@
 //! The number of samples that RANSAC needs, N = log(1 − p) / log(1 − wˢ), for samples of several
 //! sizes.
 
-use super::guess::{self, Guess, PLOT};
+use super::guess::{CURVE, PLOT, START};
 use crate::contract::{
     Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
     format_number, knobs,
 };
+use crate::kit::guess::{BOTH, GUESS, GuessedCurve, Reveal};
 use epipole::robust::num_trials_with_replacement;
 
 /// Sample sizes: for a line, a homography, E, and F from seven or from eight matches.
@@ -19,15 +20,7 @@ const CONFIDENCE: Slider = Slider::new("p", "Confidence p")
     .range(0.5, 0.999, 0.001)
     .at(0.99)
     .digits(3);
-const SHOW: Choice = Choice::new(
-    "show",
-    "Show",
-    &[
-        ("curves", "Curves"),
-        ("guess", "Your guess"),
-        ("both", "Both"),
-    ],
-);
+const SHOW: Choice = Choice::new("show", "Show", &[("curves", "Curves"), GUESS, BOTH]);
 const KNOBS: &[Knob] = knobs![SHOW, CONFIDENCE];
 
 /// Sample size whose curve the reader guesses.
@@ -37,23 +30,28 @@ pub(super) const GUESSED: usize = 8;
 pub struct RansacBudget {
     settings: Settings,
     pub(super) inlier_ratio: f64,
-    guess: Guess,
+    guess: GuessedCurve<5>,
 }
 
 impl RansacBudget {
+    fn reveal(&self) -> Reveal {
+        Reveal::of(&self.settings, &SHOW)
+    }
+
     /// Returns whether the curves are shown, rather than only the guess.
     pub(super) fn shows_curves(&self) -> bool {
-        self.settings.chosen(&SHOW) != 1
+        self.reveal().shows_answer()
     }
 
     /// Returns the guess, if it is shown.
-    pub(super) fn guess(&self) -> Option<&Guess> {
-        (self.settings.chosen(&SHOW) != 0).then_some(&self.guess)
+    pub(super) fn guess(&self) -> Option<&GuessedCurve<5>> {
+        self.reveal().shows_guess().then_some(&self.guess)
     }
 
     /// Returns the maximum factor between guess and curve, if they are compared.
     pub(super) fn guess_factor(&self) -> Option<f64> {
-        let truth = guess::RATIOS.map(|w| self.trials(GUESSED, w).unwrap_or(u64::MAX));
+        let trials = |w| self.trials(GUESSED, w).unwrap_or(u64::MAX);
+        let truth = CURVE.at.map(|w| libm::log10(trials(w) as f64));
         let guess = self.guess().filter(|_| self.shows_curves())?;
         Some(guess.worst_factor(truth))
     }
@@ -91,7 +89,7 @@ impl Declared for RansacBudget {
         Self {
             settings: Settings::new(KNOBS),
             inlier_ratio: RATIO,
-            guess: Guess::new(),
+            guess: GuessedCurve::new(&CURVE, START),
         }
     }
 }
@@ -106,7 +104,7 @@ impl Model for RansacBudget {
             true => vec![self.handle()],
             false => Vec::new(),
         };
-        handles.extend(self.guess().into_iter().flat_map(Guess::handles));
+        handles.extend(self.guess().into_iter().flat_map(GuessedCurve::handles));
         handles
     }
 

@@ -43,11 +43,7 @@ impl View for RansacBudgetView {
             draw_curves(model, plot, canvas);
         }
         if let Some(guess) = model.guess() {
-            let stroke = Stroke::solid(Role::Grip, 2.0);
-            plot::draw_curve(canvas, plot, guess.places(), stroke);
-            for place in guess.places() {
-                canvas.grip(plot.canvas_from_world(place), Role::Grip);
-            }
+            guess.draw(canvas, plot);
         }
         if !model.shows_curves() {
             let place = (plot.rect.right() - LEGEND, plot.rect.y + 16.0);

@@ -2,6 +2,7 @@
 
 use super::model::{GUESSED, RansacBudget, SIZES};
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::guess::NOT_COMPARED;
 
 impl Words for RansacBudget {
     fn readouts(&self) -> Vec<Readout> {
@@ -23,7 +24,7 @@ impl Words for RansacBudget {
             readouts.push(count.main_if(is_main));
         }
         let factor = Readout::number("off", "Off by", self.guess_factor(), 1, "×");
-        readouts.push(factor.or("not compared"));
+        readouts.push(factor.or(NOT_COMPARED));
         readouts
     }
 
