@@ -2,10 +2,13 @@
 
 use super::rig::{Measured, Rig};
 use crate::contract::{
-    Challenge, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider, knobs,
+    Challenge, Choice, Control, Declared, Event, Handle, Knob, Model, Problem, Settings, Slider,
+    knobs,
 };
-use crate::kit::probe::Probe;
-use crate::kit::scenes::PHOTO_WIDTH;
+use crate::kit::guess::{BOTH, GUESS, Reveal};
+use crate::kit::probe::{self, Probe};
+use crate::kit::scenes::{PHOTO_SIZE, PHOTO_WIDTH};
+use nalgebra::Point2;
 
 const BASELINE: Slider = Slider::new("baseline", "Baseline")
     .range(0.0, 0.4, 0.01)
@@ -16,7 +19,12 @@ const FOCAL: Slider = Slider::new("focal", "Focal length")
     .range(400.0, 1000.0, 20.0)
     .at(700.0)
     .unit("px");
-const KNOBS: &[Knob] = knobs![BASELINE, FOCAL];
+const SHOW: Choice = Choice::new(
+    "show",
+    "Right photograph",
+    &[("photo", "Shown"), GUESS, BOTH],
+);
+const KNOBS: &[Knob] = knobs![BASELINE, FOCAL, SHOW];
 
 /// Range of the ball's distance from the line between the cameras, meters.
 pub(super) const DEPTH_RANGE_M: [f64; 2] = [0.8, 10.0];
@@ -28,11 +36,19 @@ const BALL: Probe = Probe::new("object", "top", "Ball")
     .on_plan([SIDE_RANGE_M, DEPTH_RANGE_M])
     .digits(3)
     .at(0.362, 2.8);
+/// Guess of the ball's column in the right photograph; its row is that of the ball.
+const COLUMN: Probe = Probe::new("guess", "right", "Your guess")
+    .over(PHOTO_SIZE)
+    .step(2.0)
+    .at(240.0, 0.0);
+/// Maximum error of a good guess, pixels.
+const GOOD_GUESS_PX: f64 = 5.0;
 
 /// The model of `stereo-slider`.
 pub(crate) struct StereoSlider {
     settings: Settings,
     ball: Probe,
+    guess: Probe,
 }
 
 impl StereoSlider {
@@ -44,6 +60,35 @@ impl StereoSlider {
             x_m,
             z_m,
         }
+    }
+
+    pub(super) fn reveal(&self) -> Reveal {
+        Reveal::of(&self.settings, &SHOW)
+    }
+
+    /// Returns the measurement, unless the right photograph is hidden.
+    pub(super) fn shown(&self) -> Option<Measured> {
+        let measured = self.rig().measured();
+        measured.filter(|_| self.reveal().shows_answer())
+    }
+
+    /// Returns the guess, in the row of the ball.
+    fn column(&self) -> Probe {
+        let row = self.rig().pixels().map_or(0.0, |[left, _]| left.y);
+        let [columns, [top, bottom]] = probe::ranges(PHOTO_SIZE);
+        self.guess.within([columns, [row.clamp(top, bottom); 2]])
+    }
+
+    /// Returns the guessed place in the right photograph, if it is shown.
+    pub(super) fn guess(&self) -> Option<Point2<f64>> {
+        self.reveal().shows_guess().then(|| self.column().point())
+    }
+
+    /// Returns the distance of the guess from the ball, pixels, if they are compared.
+    pub(super) fn guess_off_px(&self) -> Option<f64> {
+        let guess = self.guess().filter(|_| self.reveal().shows_answer())?;
+        let [_, right] = self.rig().pixels().ok()?;
+        Some((guess.x - right.x).abs())
     }
 
     /// Moves the ball sideways, at constant depth, to column `u_px` of a camera.
@@ -68,13 +113,15 @@ impl Declared for StereoSlider {
     const TITLE: &'static str = "Depth from disparity";
     const HELP: &'static str = "Drag the ball in the view from above, or move it with the arrow \
         keys; a click in a photograph moves it sideways. Set the baseline and the focal length \
-        with the sliders.";
+        with the sliders. Or choose Your guess: the right photograph is hidden, and you mark where it \
+        shows the ball.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
 
     fn new() -> Self {
         Self {
             settings: Settings::new(KNOBS),
             ball: BALL,
+            guess: COLUMN,
         }
     }
 }
@@ -85,11 +132,18 @@ impl Model for StereoSlider {
     }
 
     fn handles(&self) -> Vec<Handle> {
-        vec![self.ball.handle()]
+        let mut handles = vec![self.ball.handle()];
+        handles.extend(self.guess().map(|_| self.column().handle()));
+        handles
     }
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         self.settings.update(event)?;
+        let mut column = self.column();
+        if self.guess().is_some() && column.update(event) {
+            self.guess = column;
+            return Ok(());
+        }
         self.ball.update(event);
         if let Event::Clicked { panel, x, .. } = event {
             match panel.as_str() {
@@ -112,6 +166,27 @@ const CHALLENGES: &[Challenge<StereoSlider>] = &[
             model.with_the_rig_as_it_is(|measured| (measured.disparity_px - 60.0).abs() <= 0.8)
         },
         solution: || vec![Event::moved("object", 0.2, 1.4)],
+    },
+    Challenge {
+        id: "guess",
+        goal: "Hide the right photograph, halve the ball's distance and mark where the ball is. Compare: be off by \
+               at most 5 px.",
+        hint: "From the column of the left photograph, go left by the disparity. It was 30 px.",
+        why: "Half the distance is twice the disparity: 60 px left of the column in the left photograph.",
+        check: |model| {
+            let is_halved = model.with_the_rig_as_it_is(|measured| {
+                (measured.depth_m - 0.5 * BALL.place().1).abs() <= 0.05
+            });
+            is_halved && model.guess_off_px().is_some_and(|px| px <= GOOD_GUESS_PX)
+        },
+        solution: || {
+            vec![
+                Event::set(&SHOW, GUESS.0),
+                Event::moved("object", 0.362, 1.4),
+                Event::moved(COLUMN.id(), 441.0, 0.0),
+                Event::set(&SHOW, BOTH.0),
+            ]
+        },
     },
     Challenge {
         id: "one-meter",
@@ -193,6 +268,30 @@ mod tests {
             assert!((rig.pixels().unwrap()[index].x - 250.0).abs() < 0.2);
             assert_eq!(rig.z_m, 2.8);
         }
+    }
+
+    #[test]
+    fn a_guess_hides_the_photograph_until_it_is_compared() {
+        let mut model = StereoSlider::new();
+        for event in [
+            Event::set(&SHOW, GUESS.0),
+            Event::moved("object", 0.363, 1.4),
+            Event::clicked("right", 400.0, 10.0),
+        ] {
+            model.update(&event).unwrap();
+        }
+        // The click moves the guess, along the row of the ball, and not the ball.
+        let [left, right] = model.rig().pixels().unwrap();
+        assert_eq!(model.guess(), Some(Point2::new(400.0, left.y)));
+        assert_eq!(model.rig().z_m, 1.4);
+        assert!(model.shown().is_none() && model.guess_off_px().is_none());
+        let said = model.describe();
+        assert!(said.contains("hidden") && !said.contains("60.0"), "{said}");
+        let disparity = &model.readouts()[0];
+        assert_eq!((disparity.id, &*disparity.text), ("disparity", "hidden"));
+        model.update(&Event::set(&SHOW, BOTH.0)).unwrap();
+        assert!((model.guess_off_px().unwrap() - (right.x - 400.0)).abs() < 1e-9);
+        assert!(model.describe().contains("Your guess is 41 px off"));
     }
 
     #[test]

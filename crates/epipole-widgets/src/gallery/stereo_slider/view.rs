@@ -8,11 +8,12 @@ mod style;
 use self::magnifier::Magnifier;
 use self::style::UNCERTAIN;
 use super::model::{DEPTH_RANGE_M, StereoSlider};
-use super::rig::{ERROR_PX, Measured, Rig, Sight};
+use super::rig::{ERROR_PX, Measured, Sight};
 use super::words::NO_BASELINE;
 use crate::canvas::{Align, Canvas, Place, Shape, Stroke, TextStyle};
 use crate::contract::{Aspect, Layout, Panel, Rect, View, format_number};
-use crate::kit::grid::{self, Grid, TEXT, TITLE};
+use crate::kit::grid::{self, Grid, TEXT, TITLE, fitting};
+use crate::kit::guess::Reveal;
 use crate::kit::labels::Labels;
 use crate::kit::pair::CAMERAS;
 use crate::kit::photo::{Photo, Slice};
@@ -22,6 +23,8 @@ use crate::kit::scenes::{self, PHOTO_ASPECT, PHOTO_SIZE};
 use crate::theme::Role;
 
 const MARKER: f64 = 4.5;
+/// Titles of the hidden right photograph.
+const HIDDEN: [&str; 2] = ["Right: mark where it shows the ball", "Right: your guess"];
 /// Height of the top view on a phone, CSS pixels.
 const LOW: f64 = 186.0;
 /// Ends of the axes of disparity and depth.
@@ -84,11 +87,11 @@ impl View for StereoSliderView {
 
     fn draw(&mut self, model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
         let rig = model.rig();
-        self.draw_photographs(&rig, layout, canvas);
-        from_above::draw(&rig, layout.panel("top"), canvas);
+        self.draw_photographs(model, layout, canvas);
+        from_above::draw(&rig, model.shown(), layout.panel("top"), canvas);
         let curve = layout.panels.iter().find(|panel| panel.id == "curve");
         if let Some(curve) = curve {
-            draw_curve(&rig, curve, canvas);
+            draw_curve(model, curve, canvas);
         }
         if rig.measured().is_none() {
             let room = curve.unwrap_or(layout.panel("top"));
@@ -118,7 +121,9 @@ impl StereoSliderView {
         photos.any(|(photo, camera)| work(photo, &scene, camera, arrangement, PHOTO_SIZE))
     }
 
-    fn draw_photographs(&mut self, rig: &Rig, layout: &Layout, canvas: &mut Canvas) {
+    fn draw_photographs(&mut self, model: &StereoSlider, layout: &Layout, canvas: &mut Canvas) {
+        let rig = &model.rig();
+        let is_hidden = !model.reveal().shows_answer();
         let panels = [layout.panel("left"), layout.panel("right")];
         let made = (|| {
             let scene = scenes::long_table((rig.x_m, rig.z_m))?;
@@ -132,12 +137,19 @@ impl StereoSliderView {
         let mut magnifier = None;
         for index in 0..2 {
             let rect = panels[index].rect;
-            let said = title(index, sights[index], pixels[index].x, rect.width);
+            let said = match index == 1 && is_hidden {
+                true => fitting(rect.width - 18.0, &HIDDEN).to_owned(),
+                false => title(index, sights[index], pixels[index].x, rect.width),
+            };
             let (role, shape) = CAMERAS[index];
             let middle = rect.y - TITLE / 2.0;
             canvas.marker((rect.x + 6.0, middle), 5.0, shape, role, false);
             let place = (rect.x + 18.0, middle);
             canvas.label(place, &said, TextStyle::new(Role::Ink, TEXT));
+            if index == 1 && is_hidden {
+                canvas.panel(rect);
+                continue;
+            }
             let photo = &mut self.photos[index];
             match photo.picture(&scene, &cameras[index], arrangement, PHOTO_SIZE) {
                 Ok(picture) => {
@@ -157,6 +169,12 @@ impl StereoSliderView {
         });
         for index in 0..2 {
             let panel = panels[index];
+            if index == 1 && is_hidden {
+                let (role, shape) = CAMERAS[0];
+                let left = panel.place_of(&pixels[0]);
+                canvas.hollow_marker(left, MARKER, shape, role, true);
+                continue;
+            }
             let (role, shape) = CAMERAS[index];
             let place = panel.place_of(&pixels[index]);
             canvas.clipped(panel.rect, |canvas| {
@@ -171,8 +189,13 @@ impl StereoSliderView {
                 }
             });
         }
+        if let Some(guess) = model.guess() {
+            canvas.grip(panels[1].place_of(&guess), Role::Grip);
+        }
         // Magnifies the right photograph, which is the last.
-        if let Some(magnifier) = magnifier.filter(|_| rig.measured().is_some()) {
+        if let Some(magnifier) =
+            magnifier.filter(|_| model.reveal() == Reveal::Answer && model.shown().is_some())
+        {
             let place = panels[1].place_of(&pixels[1]);
             magnifier.draw(panels[1].rect, place, canvas);
         }
@@ -223,14 +246,16 @@ fn draw_disparity(
     Labels::new(rect.inset(2.0)).draw(canvas, &[below], &text, style);
 }
 
-/// Draws depth over disparity for this rig, and the effect of a pixel of error.
-fn draw_curve(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
+/// Draws depth over disparity for this rig, and the effect of a pixel of error; only the axes while
+/// the disparity is hidden.
+fn draw_curve(model: &StereoSlider, panel: &Panel, canvas: &mut Canvas) {
     let (x, y) = rulers();
     grid::title(canvas, panel.rect, "Depth Z over disparity d: Z = f B / d");
     plot::draw_axes(canvas, panel, &x, &y);
-    let Some(measured) = rig.measured() else {
+    let Some(measured) = model.shown() else {
         return;
     };
+    let rig = model.rig();
     let (d, near_m) = (measured.disparity_px, measured.interval.near_m);
     let far_m = measured.interval.far_m.unwrap_or(1e3);
     let at = |d: f64, z: f64| panel.canvas_from_world((d, z.min(1e3)));

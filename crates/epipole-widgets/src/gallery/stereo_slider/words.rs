@@ -3,6 +3,7 @@
 use super::model::StereoSlider;
 use super::rig::Sight;
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::guess::NOT_COMPARED;
 use epipole::stereo::DepthInterval;
 
 /// Description of a rig without a baseline.
@@ -17,26 +18,37 @@ impl Words for StereoSlider {
         let rig = self.rig();
         let pixels = rig.pixels().ok();
         let measured = rig.measured();
-        let interval = measured.map(|measured| measured.interval);
+        let is_hidden = !self.reveal().shows_answer();
+        let unknown = if is_hidden { "hidden" } else { UNKNOWN };
+        let interval = self.shown().map(|measured| measured.interval);
         let digits = interval.map_or(2, |interval| depth_digits(&interval));
         let say = |id, label, value: Option<f64>, digits, unit, otherwise: &str| {
             Readout::number(id, label, value, digits, unit).or(otherwise)
         };
         let column = |index: usize| pixels.map(|pixels| pixels[index].x);
-        let disparity_px = pixels.map(|[left, right]| left.x - right.x);
+        let right_px = column(1).filter(|_| !is_hidden);
+        let disparity_px = column(0).zip(right_px).map(|(left, right)| left - right);
         let depth_m = measured.map(|measured| measured.depth_m);
         let near_m = interval.map(|interval| interval.near_m);
         let far_m = interval.and_then(|interval| interval.far_m);
-        let far = interval.map_or(UNKNOWN, |_| "infinitely far");
-        let reach = interval.map_or_else(|| UNKNOWN.to_owned(), |interval| reach(&interval));
+        let far = interval.map_or(unknown, |_| "infinitely far");
+        let reach = interval.map_or_else(|| unknown.to_owned(), |interval| reach(&interval));
         vec![
-            say("disparity", "Disparity d", disparity_px, 1, "px", UNKNOWN).main(),
+            say("disparity", "Disparity d", disparity_px, 1, "px", unknown).main(),
             say("depth", "Z = f B / d", depth_m, 2, "m", UNKNOWN).main(),
             Readout::words("interval", "At d ± 1 px", reach).main(),
             say("u-left", "Left column", column(0), 1, "px", UNKNOWN),
-            say("u-right", "Right column", column(1), 1, "px", UNKNOWN),
-            say("near", "Z at d + 1 px", near_m, digits, "m", UNKNOWN),
+            say("u-right", "Right column", right_px, 1, "px", unknown),
+            say("near", "Z at d + 1 px", near_m, digits, "m", unknown),
             say("far", "Z at d − 1 px", far_m, digits, "m", far),
+            say(
+                "off",
+                "Guess off",
+                self.guess_off_px(),
+                0,
+                "px",
+                NOT_COMPARED,
+            ),
         ]
     }
 
@@ -46,6 +58,16 @@ impl Words for StereoSlider {
             return NO_BASELINE.to_owned();
         };
         let number = format_number;
+        if let Some(guess) = self.guess().filter(|_| self.shown().is_none()) {
+            return format!(
+                "The ball is {} m away, and the left photograph shows it in column {}. The right photograph is \
+                 hidden; your guess is column {}.",
+                number(rig.z_m, 2),
+                rig.pixels()
+                    .map_or_else(|_| UNKNOWN.to_owned(), |[left, _]| number(left.x, 1)),
+                number(guess.x, 0)
+            );
+        }
         let mut sentence = format!(
             "With a baseline of {} m and a focal length of {} px, the ball at {} m has a disparity of \
              {} px. One pixel of error leaves every depth from {} possible.",
@@ -55,6 +77,10 @@ impl Words for StereoSlider {
             number(measured.disparity_px, 1),
             reach(&measured.interval),
         );
+        if let Some(off_px) = self.guess_off_px() {
+            let off = number(off_px, 0);
+            sentence.push_str(&format!(" Your guess is {off} px off."));
+        }
         if let Some(trouble) = trouble(rig.sights()) {
             sentence.push(' ');
             sentence.push_str(&trouble);

@@ -36,7 +36,8 @@ pub(super) fn panel(rect: Rect) -> Panel {
     Panel::new("top", rect, [-SIDE_M, SIDE_M], [far, below]).clickable()
 }
 
-pub(super) fn draw(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
+/// Draws the view; without a measurement, only the cameras and their rays.
+pub(super) fn draw(rig: &Rig, measured: Option<Measured>, panel: &Panel, canvas: &mut Canvas) {
     let rect = panel.rect;
     let is_small = rect.width < SMALL || rect.height < SMALL;
     let titles = ["From above, stretched sideways", "From above, stretched"];
@@ -44,7 +45,6 @@ pub(super) fn draw(rig: &Rig, panel: &Panel, canvas: &mut Canvas) {
     canvas.panel(rect);
     let inner = rect.inset(1.0);
     let mut labels = Labels::new(rect.inset(3.0));
-    let measured = rig.measured();
     let at = |x: f64, z: f64| panel.canvas_from_world((x, z));
     canvas.clipped(inner, |canvas| {
         draw_table(canvas, panel);
