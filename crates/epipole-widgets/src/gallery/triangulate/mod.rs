@@ -1,6 +1,7 @@
 //! `triangulate`: a point from two noisy rays by four methods, and its error.
 
 mod estimates;
+mod guess;
 mod model;
 mod uncertainty;
 mod view;

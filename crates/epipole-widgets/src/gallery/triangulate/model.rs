@@ -1,10 +1,12 @@
 //! A point, two cameras that see it, and the noise of its two pixels.
 
 use super::estimates::{Estimates, METHODS};
+use super::guess::{self, CURVE, START};
 use crate::contract::{
     Button, ButtonRole, Challenge, Choice, Control, Data, Datum, Declared, Event, Handle, Knob,
     Model, Problem, Settings, Slider, Space, Symbol, knobs, match_data,
 };
+use crate::kit::guess::{BOTH, GUESS, GuessedCurve, Reveal};
 use crate::kit::orbit::{Orbit, SPACE};
 use crate::kit::probe::Probe;
 use epipole::camera::{Camera, Intrinsics, PosedCamera, look_at};
@@ -28,6 +30,8 @@ const SHOW: Choice = Choice::new(
         ("misses", "In the photographs"),
         ("angle", "Error over angle"),
         ("distance", "Error over distance"),
+        GUESS,
+        BOTH,
     ],
 );
 const SEED: Slider = Slider::seed(6.0);
@@ -57,12 +61,31 @@ pub(crate) struct Triangulate {
     pub(super) orbit: Orbit,
     point: Probe,
     second: Probe,
+    guess: GuessedCurve<5>,
     estimates: OnceCell<Result<Estimates, String>>,
 }
 
 impl Triangulate {
     pub(super) fn show(&self) -> Show {
-        [Show::Misses, Show::Angle, Show::Distance][self.settings.chosen(&SHOW)]
+        let shows = [Show::Misses, Show::Angle, Show::Distance];
+        // A guess is one of the uncertainty over the distance.
+        let chosen = self.settings.chosen(&SHOW);
+        shows.get(chosen).copied().unwrap_or(Show::Distance)
+    }
+
+    pub(super) fn reveal(&self) -> Reveal {
+        Reveal::of(&self.settings, &SHOW)
+    }
+
+    /// Returns the guessed curve, if it is shown.
+    pub(super) fn guess(&self) -> Option<&GuessedCurve<5>> {
+        self.reveal().shows_guess().then_some(&self.guess)
+    }
+
+    /// Returns the maximum factor between guess and curve, if they are compared.
+    pub(super) fn guess_factor(&self) -> Option<f64> {
+        let guess = self.guess().filter(|_| self.reveal().shows_answer())?;
+        Some(guess.worst_factor(guess::truth(&self.estimates().ok()?.curves)?))
     }
 
     pub(super) fn sigma_px(&self) -> f64 {
@@ -111,7 +134,8 @@ impl Declared for Triangulate {
     const NAME: &'static str = "triangulate";
     const TITLE: &'static str = "Where two noisy rays meet";
     const HELP: &'static str = "Drag the point or the second camera, from above; both cameras look at the \
-        point. Photograph again for other noise. Drag in the enlarged picture to turn it.";
+        point. Photograph again for other noise. Drag in the enlarged picture to turn it. Or choose Your guess, \
+        drag its points to where you expect the error over the distance, and compare.";
     const CHALLENGES: &'static [Challenge<Self>] = CHALLENGES;
     const SPACES: &'static [Space] = &[SPACE];
 
@@ -122,6 +146,7 @@ impl Declared for Triangulate {
             orbit: Orbit::new(-62.0, 32.0),
             point: POINT,
             second: SECOND,
+            guess: GuessedCurve::new(&CURVE, START),
             estimates: OnceCell::new(),
         }
     }
@@ -149,6 +174,7 @@ impl Model for Triangulate {
 
     fn handles(&self) -> Vec<Handle> {
         let mut handles = vec![self.point.handle(), self.second.handle()];
+        handles.extend(self.guess().into_iter().flat_map(GuessedCurve::handles));
         handles.extend(self.orbit.handles());
         handles
     }
@@ -160,6 +186,9 @@ impl Model for Triangulate {
 
     fn update(&mut self, event: &Event) -> Result<(), Problem> {
         if self.orbit.update(event)? {
+            return Ok(());
+        }
+        if self.guess().is_some() && self.guess.update(event) {
             return Ok(());
         }
         self.settings.update(event)?;
@@ -189,6 +218,27 @@ const CHALLENGES: &[Challenge<Triangulate>] = &[
             untouched && long(model) > long(&start).map(|long| 4.0 * long)
         },
         solution: || vec![Event::moved("second", 0.1, 0.0)],
+    },
+    Challenge {
+        id: "guess",
+        goal: "Guess the error over the distance, from 1 m to 80 m. Compare: be off by less than a factor of 2 \
+               everywhere.",
+        hint: "The mark at the dashed line is right. How much longer is the region at twice that distance?",
+        why: "Four times as long at twice the distance: the angle between the rays halves, and a pixel is twice as \
+              wide.",
+        check: |model| model.guess_factor().is_some_and(|factor| factor < 2.0),
+        solution: || {
+            let truth = Triangulate::new();
+            let truth = truth
+                .estimates()
+                .ok()
+                .and_then(|found| guess::truth(&found.curves));
+            let points = CURVE.ids.into_iter().zip(truth.unwrap_or_default());
+            let mut events = vec![Event::set(&SHOW, GUESS.0)];
+            events.extend(points.map(|(id, decade)| Event::moved(id, 0.0, decade)));
+            events.push(Event::set(&SHOW, BOTH.0));
+            events
+        },
     },
     Challenge {
         id: "fair",
@@ -283,6 +333,26 @@ mod tests {
                 "{scatter} and {expected}"
             );
         }
+    }
+
+    #[test]
+    fn a_guess_hides_the_curve_until_it_is_compared() {
+        let mut model = Triangulate::new();
+        for event in [
+            Event::set(&SHOW, GUESS.0),
+            Event::moved("second", 0.4, 0.0),
+            Event::moved("guess80", 0.0, 2.0),
+            Event::moved("guess30", 0.0, 2.0),
+            Event::moved("guess10", 0.0, 1.0),
+        ] {
+            model.update(&event).unwrap();
+        }
+        assert_eq!((model.show(), model.guess_factor()), (Show::Distance, None));
+        assert!(model.describe().contains("hidden"));
+        model.update(&Event::set(&SHOW, BOTH.0)).unwrap();
+        // At 80 m the error is √2 Z² / (f B) = 45.3 m, and the guess is 1 m.
+        let factor = model.guess_factor().unwrap();
+        assert!((factor / 45.3 - 1.0).abs() < 0.1, "{factor}");
     }
 
     #[test]

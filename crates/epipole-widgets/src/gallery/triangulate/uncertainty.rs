@@ -72,6 +72,16 @@ impl Curves {
         }
         curves
     }
+
+    /// Returns the standard deviation at a distance, meters, linear between logarithms.
+    pub(super) fn long_m_at(&self, distance_m: f64) -> Option<f64> {
+        let log = |(x, y): (f64, f64)| (libm::log10(x), libm::log10(y));
+        let index = self.distance.iter().position(|(x, _)| *x >= distance_m)?;
+        let (x1, y1) = log(self.distance[index]);
+        let (x0, y0) = log(*self.distance.get(index.checked_sub(1)?)?);
+        let share = (libm::log10(distance_m) - x0) / (x1 - x0);
+        Some(libm::exp10(y0 + share * (y1 - y0)))
+    }
 }
 
 /// Returns the semi-axes of the one-sigma ellipsoid around a point, longest first, in the world.
@@ -114,6 +124,18 @@ mod tests {
         );
         let &(_, square_m) = found.square.last().unwrap();
         assert_eq!(square_m, long_m);
+    }
+
+    #[test]
+    fn between_two_distances_it_is_interpolated() {
+        let found = curves(Point3::new(0.4, 0.0, 0.0));
+        let expected = std::f64::consts::SQRT_2 * 31.0 * 31.0 / (500.0 * 0.4);
+        let long_m = found.long_m_at(31.0).unwrap();
+        assert!(
+            (long_m / expected - 1.0).abs() < 0.01,
+            "{long_m} {expected}"
+        );
+        assert_eq!((found.long_m_at(0.1), found.long_m_at(200.0)), (None, None));
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::estimates::{Estimates, METHODS};
 use super::model::{Show, Triangulate};
 use crate::contract::{Readout, Words, format_number};
+use crate::kit::guess::NOT_COMPARED;
 
 const IDS: [&str; 4] = ["midpoint", "dlt", "angular", "optimal"];
 
@@ -13,7 +14,10 @@ fn centimeters(id: &'static str, label: &'static str, meters: Option<f64>) -> Re
 }
 
 /// Describes the content beside the region.
-fn beside(show: Show, estimates: &Estimates) -> String {
+fn beside(model: &Triangulate, estimates: &Estimates) -> String {
+    if !model.reveal().shows_answer() {
+        return "How it grows with the distance is hidden; five points are your guess, from 1 m to 80 m.".to_owned();
+    }
     let px = |method| {
         let missed = estimates.reprojection_px(method);
         missed.map_or("no number of".to_owned(), |px| format_number(px, 2))
@@ -25,7 +29,7 @@ fn beside(show: Show, estimates: &Estimates) -> String {
         })
     };
     let curves = &estimates.curves;
-    match show {
+    let said = match model.show() {
         Show::Misses => format!(
             "In the photographs the midpoint misses the pixels by {} px, the optimum by {} px.",
             px(0),
@@ -41,7 +45,12 @@ fn beside(show: Show, estimates: &Estimates) -> String {
             cm(&curves.distance, 5.0),
             cm(&curves.distance, 50.0)
         ),
-    }
+    };
+    let Some(factor) = model.guess_factor() else {
+        return said;
+    };
+    let factor = format_number(factor, 1);
+    format!("{said} Your guess is off by up to a factor of {factor}.")
 }
 
 impl Words for Triangulate {
@@ -62,6 +71,8 @@ impl Words for Triangulate {
             let readout = Readout::number(id, label, error_px, 3, "px").or("no point");
             readouts.push(readout.main_if(matches!(id, "midpoint" | "optimal")));
         }
+        let off = Readout::number("off", "Guess off", self.guess_factor(), 1, "×");
+        readouts.push(off.or(NOT_COMPARED));
         let from = self.orbit.seen_from();
         readouts.push(Readout::words("view", "Seen from", from));
         readouts
@@ -89,7 +100,7 @@ impl Words for Triangulate {
             "The rays meet at {angle}°. The optimal estimate is {} cm off; one standard deviation along \
              the rays is {sigma}. {}",
             format_number(off_cm, 1),
-            beside(self.show(), estimates)
+            beside(self, estimates)
         )
     }
 }

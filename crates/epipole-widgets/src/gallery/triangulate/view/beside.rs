@@ -46,7 +46,12 @@ fn rulers(show: Show) -> [Ruler; 2] {
 pub(super) fn panels(model: &Triangulate, cell: Rect) -> Vec<Panel> {
     if model.show() != Show::Misses {
         let [x, y] = rulers(model.show());
-        return vec![plot::panel("plot", cell, &x, &y)];
+        let plot = plot::panel("plot", cell, &x, &y);
+        return vec![if model.guess().is_some() {
+            plot.clickable()
+        } else {
+            plot
+        }];
     }
     let estimates = model.estimates().ok();
     let rects = if cell.width > cell.height {
@@ -107,13 +112,17 @@ pub(super) fn draw(model: &Triangulate, layout: &Layout, canvas: &mut Canvas) {
     let panel = layout.panel("plot");
     let [x, y] = rulers(model.show());
     let title = match model.show() {
+        Show::Distance if !model.reveal().shows_answer() => "Your guess of 1 σ, cm",
         Show::Distance => "1 σ, cm (dashed: Z²)",
         _ => "1 σ along the rays, cm",
     };
     grid::title(canvas, panel.rect, title);
     plot::draw_axes(canvas, panel, &x, &y);
     if let Some(estimates) = estimates {
-        draw_curves(model.show(), estimates, panel, canvas);
+        draw_curves(model, estimates, panel, canvas);
+    }
+    if let Some(guess) = model.guess() {
+        guess.draw(canvas, panel);
     }
 }
 
@@ -167,8 +176,9 @@ fn draw_patch(estimates: &Estimates, camera: usize, panel: &Panel, canvas: &mut 
     draw_bar(canvas, panel.rect, (panel.scale_x(), "px"), is_above);
 }
 
-/// Draws the growth of the uncertainty, and the current position.
-fn draw_curves(show: Show, estimates: &Estimates, panel: &Panel, canvas: &mut Canvas) {
+/// Draws the growth of the uncertainty, unless it is hidden, and the current position.
+fn draw_curves(model: &Triangulate, estimates: &Estimates, panel: &Panel, canvas: &mut Canvas) {
+    let (show, is_shown) = (model.show(), model.reveal().shows_answer());
     let curves = &estimates.curves;
     let in_panel = |&(x, long_m): &(f64, f64)| {
         let x = if show == Show::Distance {
@@ -180,16 +190,20 @@ fn draw_curves(show: Show, estimates: &Estimates, panel: &Panel, canvas: &mut Ca
     };
     let (curve, now) = match show {
         Show::Distance => {
-            let square = curves.square.iter().map(in_panel);
-            let dashed = Stroke::solid(Role::Reference, 1.5).dashed();
-            plot::draw_curve(canvas, panel, square, dashed);
+            if is_shown {
+                let square = curves.square.iter().map(in_panel);
+                let dashed = Stroke::solid(Role::Reference, 1.5).dashed();
+                plot::draw_curve(canvas, panel, square, dashed);
+            }
             let distance_m = (estimates.truth - estimates.cameras[0].center_in_world()).norm();
             (&curves.distance, plot::decade(distance_m))
         }
         _ => (&curves.angle, estimates.angle_deg),
     };
-    let curve = curve.iter().map(in_panel);
-    plot::draw_curve(canvas, panel, curve, Stroke::solid(REGION, 2.0));
+    if is_shown {
+        let curve = curve.iter().map(in_panel);
+        plot::draw_curve(canvas, panel, curve, Stroke::solid(REGION, 2.0));
+    }
     plot::draw_now(canvas, panel, now);
     if let Some(long_m) = estimates.uncertainty_m() {
         let place = panel.canvas_from_world((now, plot::decade(100.0 * long_m)));
