@@ -7,6 +7,7 @@ mod bundle_adjustment;
 mod calibrate;
 mod column_sizes;
 mod cover;
+mod coverage;
 mod disparity_map;
 pub mod eight_point;
 mod epipolar_click;
@@ -128,6 +129,7 @@ figures![
     plane_or_not::View,
     lens_bend::View,
     calibrate::View,
+    coverage::View,
     flow_window::View,
     track::View,
     odometry::View,
