@@ -4,6 +4,7 @@ use super::reconstruction::space;
 use super::screen::{Action, Panel, Screen};
 use super::widgets::controls;
 use crate::project::Step;
+use crate::session::ScaleSource;
 use crate::tasks::ExportFormat;
 use egui::{Button, RichText, Ui};
 
@@ -35,7 +36,7 @@ impl Panel for Export {
         ui.label(format!(
             "Inside are images/ and {}; model.html, which shows the model in any browser; points.ply with colors; \
              reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. \
-             Measures are in measures.csv. Pairs with dense depth add dense.ply and a PFM file each in depth/; the \
+             Measures are in measures.csv, and on one page in report.pdf. Pairs with dense depth add dense.ply and a PFM file each in depth/; the \
              depth of all views adds fused.ply with normals and its surface, {}{}.",
             self.format.place(),
             self.format.mesh(),
@@ -45,6 +46,9 @@ impl Panel for Export {
             }
         ));
         ui.weak(match (project.scale(), &project.document().poses) {
+            (Some(scale), _) if scale.source == ScaleSource::ControlPoints => {
+                "Coordinates are those of the control points, in meters.".to_owned()
+            }
             (Some(_), _) => "Lengths are in meters, by the length you measured.".to_owned(),
             (None, Some(poses)) => {
                 format!(
@@ -56,7 +60,7 @@ impl Panel for Export {
                 "The unit is arbitrary. Measure a known length to get meters.".to_owned()
             }
         });
-        if project.floor().is_some() {
+        if project.floor().is_some() && project.alignment().is_none() {
             ui.weak("z points up from the floor.");
         }
         ui.separator();

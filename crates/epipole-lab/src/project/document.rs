@@ -6,6 +6,7 @@ use super::key::Key;
 use super::known_poses::KnownPoses;
 use super::sample::Sample;
 use super::settings::Settings;
+use super::shape::{ControlPoint, Shape};
 use serde::{Deserialize, Serialize};
 
 /// Permanent number of a photograph in its project.
@@ -106,6 +107,10 @@ pub struct Document {
     pub settings: Settings,
     /// Measurements.
     pub measures: Vec<Measure>,
+    /// Measured angles, areas and volumes.
+    pub shapes: Vec<Shape>,
+    /// Points with known coordinates.
+    pub control_points: Vec<ControlPoint>,
     /// Three points of the floor.
     pub floor: Option<[Anchor; 3]>,
     /// Pairs whose depth is part of the cloud.
@@ -129,6 +134,11 @@ impl Document {
     /// Whether all photographs that an anchor depends on exist.
     pub fn has_all_of(&self, anchor: &Anchor) -> bool {
         anchor.photos().all(|id| self.photo(id).is_some())
+    }
+
+    /// Whether there is a length, an angle, an area, a volume or a control point.
+    pub fn has_measures(&self) -> bool {
+        !(self.measures.is_empty() && self.shapes.is_empty() && self.control_points.is_empty())
     }
 
     /// Returns the photograph of a board with this number.

@@ -9,9 +9,11 @@ mod document;
 mod key;
 mod known_poses;
 mod options;
+mod plane;
 mod sample;
 mod saved;
 mod settings;
+mod shape;
 mod state;
 mod step;
 
@@ -29,10 +31,12 @@ pub use options::{
     AllViewsOptions, DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions,
     PairOptions, SfmOptions,
 };
+pub(crate) use plane::{Plane, bounds, height_weights, is_simple, prisms, signed_area};
 pub use sample::Sample;
 pub use saved::{Saved, SavedPhoto, VERSION};
 pub use settings::{
     ALL_VIEWS_MEGAPIXELS, MAX_DISPARITY_PX, MAX_FRAMES, MAX_MARKS, RefineFocal, SQUARES_M, Settings,
 };
+pub use shape::{ControlPoint, Shape, ShapeKind, ShapeValue};
 pub use state::{Outcome, Project, View};
 pub use step::{Explanation, Step};

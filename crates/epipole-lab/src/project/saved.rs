@@ -5,6 +5,7 @@ use super::document::{Anchor, Measure, PhotoId};
 use super::known_poses::KnownPoses;
 use super::sample::Sample;
 use super::settings::Settings;
+use super::shape::{ControlPoint, Shape};
 use serde::{Deserialize, Serialize};
 
 /// Version of the format that is written.
@@ -21,6 +22,12 @@ pub struct Saved {
     pub photos: Vec<SavedPhoto>,
     /// Measurements; photographs are identified by index.
     pub measures: Vec<Measure>,
+    /// Measured angles, areas and volumes, likewise.
+    #[serde(default)]
+    pub shapes: Vec<Shape>,
+    /// Points with known coordinates, likewise.
+    #[serde(default)]
+    pub control_points: Vec<ControlPoint>,
     /// Three points of the floor, likewise.
     #[serde(default)]
     pub floor: Option<[Anchor; 3]>,

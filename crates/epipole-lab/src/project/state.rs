@@ -4,6 +4,7 @@ use super::bytes::Blob;
 use super::cache::Cache;
 use super::document::{Document, PhotoId};
 use super::key::Key;
+use super::shape::ShapeValue;
 use super::step::Step;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -75,6 +76,8 @@ pub struct Project {
     pub(crate) unread: BTreeSet<Key>,
     /// Number of changes.
     pub(crate) revision: u64,
+    /// Volumes by the key of their inputs.
+    pub(crate) volumes: RefCell<BTreeMap<Key, Result<ShapeValue, String>>>,
     /// Outcomes of photographs, cached per revision, as panels read them in every frame.
     pub(crate) outcomes: RefCell<(u64, BTreeMap<PhotoId, Outcome>)>,
 }
@@ -99,6 +102,7 @@ impl Default for Project {
             rereading: BTreeSet::new(),
             unread: BTreeSet::new(),
             revision: 0,
+            volumes: RefCell::default(),
             outcomes: RefCell::default(),
         }
     }

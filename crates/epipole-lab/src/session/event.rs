@@ -1,7 +1,8 @@
 //! Actions of the reader.
 
 use crate::project::{
-    Anchor, Blob, KnownPoses, LensCamera, Measure, PhotoId, Sample, Saved, Settings, Step,
+    Anchor, Blob, ControlPoint, KnownPoses, LensCamera, Measure, PhotoId, Sample, Saved, Settings,
+    Shape, Step,
 };
 
 /// Action of the reader.
@@ -43,6 +44,16 @@ pub enum Event {
     Length(usize, Option<f64>),
     /// Removed a measure.
     Forget(usize),
+    /// Measured an angle, an area or a volume.
+    MeasureShape(Shape),
+    /// Removed an angle, an area or a volume.
+    ForgetShape(usize),
+    /// Added a control point.
+    AddControl(ControlPoint),
+    /// Changed the name or the coordinates of a control point.
+    ChangeControl(usize, String, Option<[f64; 3]>),
+    /// Removed a control point.
+    ForgetControl(usize),
     /// Chose three points on the floor, or removed them.
     Floor(Option<[Anchor; 3]>),
     /// Added the depth of a pair to the cloud, or removed it.

@@ -9,6 +9,7 @@
 
 mod boards;
 mod event;
+mod figures;
 #[cfg(feature = "panels")]
 mod host;
 mod import;
@@ -33,7 +34,10 @@ pub(crate) use jobs::{FileJob, Jobs};
 pub use queue::Pending;
 #[cfg(feature = "panels")]
 pub(crate) use report::count;
-pub use report::{BoardOutcome, Floor, Length, Scale, StepState, Suggestion, Verdict};
+pub use report::{
+    Alignment, BoardOutcome, Disagreement, Floor, Length, Scale, ScaleBar, ScaleSource, StepState,
+    Suggestion, Verdict,
+};
 #[cfg(feature = "panels")]
 pub(crate) use storage::Storage;
 #[cfg(feature = "panels")]

@@ -1,8 +1,8 @@
 //! Conversion between a project and its saved form.
 
 use crate::project::{
-    Anchor, Blob, Computed, Document, InputPhoto, Key, KnownPoses, LensCamera, Measure, PhotoId,
-    Project, Saved, SavedPhoto, Source, VERSION,
+    Anchor, Blob, Computed, ControlPoint, Document, InputPhoto, Key, KnownPoses, LensCamera,
+    Measure, PhotoId, Project, Saved, SavedPhoto, Shape, Source, VERSION,
 };
 use crate::tasks::{Packed, SaveProject};
 
@@ -26,6 +26,29 @@ fn renumbered(measure: &Measure, number: impl Fn(PhotoId) -> Option<PhotoId>) ->
     Some(Measure {
         ends: all_renumbered(measure.ends, number)?,
         length_m: measure.length_m,
+    })
+}
+
+/// Renumbers the photographs of a figure's points.
+fn shape_renumbered(shape: &Shape, number: impl Fn(PhotoId) -> Option<PhotoId>) -> Option<Shape> {
+    let points = shape.points.iter();
+    Some(Shape {
+        kind: shape.kind,
+        points: (points.map(|point| all_renumbered([*point], &number)))
+            .map(|point| point.map(|[point]| point))
+            .collect::<Option<_>>()?,
+    })
+}
+
+/// Renumbers the photographs of a control point.
+fn control_renumbered(
+    control: &ControlPoint,
+    number: impl Fn(PhotoId) -> Option<PhotoId>,
+) -> Option<ControlPoint> {
+    let [point] = all_renumbered([control.point], number)?;
+    Some(ControlPoint {
+        point,
+        ..control.clone()
     })
 }
 
@@ -56,6 +79,12 @@ impl Project {
             settings: self.document.settings.clone(),
             photos: photos.iter().map(saved_photo).collect(),
             measures: measures.filter_map(|m| renumbered(m, place)).collect(),
+            shapes: (self.document.shapes.iter())
+                .filter_map(|shape| shape_renumbered(shape, place))
+                .collect(),
+            control_points: (self.document.control_points.iter())
+                .filter_map(|control| control_renumbered(control, place))
+                .collect(),
             floor: (self.document.floor).and_then(|ends| all_renumbered(ends, place)),
             dense: (self.document.dense.iter())
                 .filter_map(|(a, b)| Some((place(*a)?, place(*b)?)))
@@ -139,6 +168,14 @@ impl Project {
         let number = |place: PhotoId| numbers.get(place as usize).copied().flatten();
         let measures = saved.measures.iter();
         document.measures = measures.filter_map(|m| renumbered(m, number)).collect();
+        document.shapes = (saved.shapes.iter())
+            .filter_map(|shape| shape_renumbered(shape, number))
+            .filter(Shape::is_valid)
+            .collect();
+        document.control_points = (saved.control_points.iter())
+            .filter_map(|control| control_renumbered(control, number))
+            .filter(ControlPoint::is_valid)
+            .collect();
         document.floor = saved.floor.and_then(|ends| all_renumbered(ends, number));
         for (a, b) in saved.dense {
             if let (Some(a), Some(b)) = (number(a), number(b))

@@ -52,6 +52,7 @@ impl Project {
                 let is_of = |end: &Anchor| end.photos().any(|photo| photo == id);
                 let gone = |m: &Measure| m.ends.iter().any(is_of);
                 self.document.measures.retain(|measure| !gone(measure));
+                self.forget_figures_of(id);
                 let floor = self.document.floor.take();
                 self.document.floor = floor.filter(|ends| !ends.iter().any(is_of));
                 self.document.dense.retain(|(a, b)| *a != id && *b != id);
@@ -94,6 +95,13 @@ impl Project {
                     self.document.measures.remove(index);
                 }
             }
+            Event::MeasureShape(shape) => self.measure_shape(shape),
+            Event::ForgetShape(index) => self.forget_shape(index),
+            Event::AddControl(control) => self.add_control(control),
+            Event::ChangeControl(index, name, position_m) => {
+                self.change_control(index, name, position_m);
+            }
+            Event::ForgetControl(index) => self.forget_control(index),
             Event::Floor(ends) => {
                 let known = |ends: &[Anchor; 3]| {
                     let [a, b, c] = ends;
@@ -180,6 +188,8 @@ impl Project {
     fn clear(&mut self) {
         self.document.photos.clear();
         self.document.measures.clear();
+        self.document.shapes.clear();
+        self.document.control_points.clear();
         self.document.floor = None;
         self.document.dense.clear();
         self.document.all_views = false;

@@ -58,7 +58,9 @@ pub use cloud_vertex::CloudVertex;
 pub use dense::Dense;
 pub use dense_cloud::DenseCloud;
 pub use depth::{DepthOf, FindDepth};
-pub use export::{Export, ExportFormat, Measured, Recipe};
+pub use export::{
+    Aligned, Export, ExportFormat, Mark, Measured, MeasuredControl, MeasuredShape, Measures, Recipe,
+};
 pub use features::{Described, Feature, Features, FeaturesOf, FindFeatures};
 pub use frames::ChooseFrame;
 #[cfg(any(feature = "vision", feature = "files"))]

@@ -2,8 +2,8 @@
 
 use crate::common::output;
 use epipole_lab::project::{
-    Anchor, Blob, CloudPoint, DensePixel, LensCamera, LensModel, Measure, Project, Sample,
-    Settings, Step,
+    Anchor, Blob, CloudPoint, ControlPoint, DensePixel, LensCamera, LensModel, Measure, Project,
+    Sample, Settings, Shape, ShapeKind, Step,
 };
 use epipole_lab::session::Event;
 use epipole_lab::tasks::OpenProject;
@@ -102,6 +102,30 @@ fn event() -> impl Strategy<Value = Event> {
         })),
         (0..4_usize, length()).prop_map(|(n, m)| Event::Length(n, m)),
         (0..4_usize).prop_map(Event::Forget),
+        (0..4_usize, prop::collection::vec(anchor(), 0..5)).prop_map(|(n, points)| {
+            let kinds = [
+                ShapeKind::Angle,
+                ShapeKind::Area,
+                ShapeKind::Volume,
+                ShapeKind::VolumeOverFloor,
+            ];
+            let kind = kinds[n];
+            Event::MeasureShape(Shape { kind, points })
+        }),
+        (0..4_usize).prop_map(Event::ForgetShape),
+        (anchor(), "[a/.é\n ]{0,4}").prop_map(|(point, name)| {
+            Event::AddControl(ControlPoint {
+                point,
+                name,
+                position_m: None,
+            })
+        }),
+        (0..4_usize, "[a/.é\n ]{0,4}", length()).prop_map(|(n, name, x)| Event::ChangeControl(
+            n,
+            name,
+            x.map(|x| [x, 0.0, x])
+        )),
+        (0..4_usize).prop_map(Event::ForgetControl),
         (id.clone(), id.clone(), any::<bool>())
             .prop_map(|(a, b, is_part)| Event::Dense(a, b, is_part)),
         Just(Event::Undo),
@@ -168,6 +192,8 @@ proptest! {
         let (a, b) = (project.document(), again.document());
         prop_assert_eq!(&a.settings, &b.settings);
         prop_assert_eq!(a.measures.len(), b.measures.len());
+        prop_assert_eq!(a.shapes.len(), b.shapes.len());
+        prop_assert_eq!(a.control_points.len(), b.control_points.len());
         let plain = |p: &epipole_lab::project::InputPhoto| (p.name.clone(), p.source.clone(), p.excluded, p.focal_px);
         let photos = |d: &epipole_lab::project::Document| d.photos.iter().map(plain).collect::<Vec<_>>();
         prop_assert_eq!(photos(a), photos(b));

@@ -10,6 +10,7 @@ pub(crate) mod growing;
 pub(crate) mod measured;
 #[cfg(feature = "panels")]
 pub(crate) mod raster;
+pub(crate) mod truth;
 
 use epipole_lab::project::{Blob, Project, Sample, Step};
 use epipole_lab::session::Event;

@@ -1,7 +1,7 @@
 //! Contents of the zip file of a reconstruction.
 
 use crate::project::{InputPhoto, Outcome, Project};
-use crate::tasks::{Export, ExportFormat, Measured, Packed, ReconstructionOfAll};
+use crate::tasks::{Export, ExportFormat, Packed, ReconstructionOfAll};
 
 impl Project {
     /// Whether a reconstruction and all of its photographs are available.
@@ -33,12 +33,10 @@ impl Project {
             component: self.view.component as u32,
             unit_of: self.document.poses.as_ref().map(|poses| poses.file.clone()),
             meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
-            floor: self
-                .floor()
+            floor: (self.floor())
+                .filter(|_| self.alignment().is_none())
                 .map(|floor| [floor.origin.into(), floor.up.into()]),
-            measures: (0..self.document.measures.len())
-                .filter_map(|index| self.measured(index))
-                .collect(),
+            measures: self.measures(),
             focal_refined: self.sfm_options().refine_focal || self.before_correction_px().is_some(),
             left_out: (self.taking_part().iter())
                 .filter(|photo| !matches!(self.outcome(photo), Outcome::Registered(_)))
@@ -50,24 +48,6 @@ impl Project {
                 .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
                 .collect(),
             all_views: self.all_views().map(|(_, cloud)| cloud.clone()),
-        })
-    }
-}
-
-impl Project {
-    /// Converts a measure for the files; `None` if one of its ends no longer exists.
-    fn measured(&self, index: usize) -> Option<Measured> {
-        let measure = self.document.measures.get(index)?;
-        let [first, second] = &measure.ends;
-        let length = match self.scale() {
-            Some(_) => self.length_in_meters(index)?,
-            None => self.length_in_units(measure)?,
-        };
-        Some(Measured {
-            ends: [self.anchored(first)?.into(), self.anchored(second)?.into()],
-            length: length.value,
-            sigma: length.sigma,
-            typed_m: measure.length_m,
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Lengths between points, their uncertainty, and the scale set by a known length.
+//! Lengths between points, and their uncertainty.
 
 use crate::project::{Anchor, CloudPoint, DensePixel, Key, Measure, PhotoId, Project};
 use crate::tasks::{CameraFound, CloudVertex, Component, Dense, DenseCloud, DepthOf};
@@ -11,17 +11,6 @@ pub struct Length {
     pub value: f64,
     /// Its standard deviation.
     pub sigma: f64,
-}
-
-/// Metric scale of the reconstruction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Scale {
-    /// Meters in a unit.
-    pub meters_per_unit: f64,
-    /// Its relative standard deviation.
-    pub relative_sigma: f64,
-    /// Index of the measure that sets it.
-    pub measure: usize,
 }
 
 impl Project {
@@ -58,7 +47,8 @@ impl Project {
         (key.0 == point.cloud).then_some(cloud)
     }
 
-    fn covariance(&self, anchor: &Anchor) -> Option<Matrix3<f64>> {
+    /// Returns the covariance of an anchor's position for fixed cameras.
+    pub(super) fn covariance(&self, anchor: &Anchor) -> Option<Matrix3<f64>> {
         match (anchor.cloud, anchor.pixel) {
             (Some(point), _) => {
                 let cloud = self.cloud_of(point)?;
@@ -70,6 +60,28 @@ impl Project {
                 covariance(component, self.anchored_point(anchor)?, noise_px(component))
             }
         }
+    }
+
+    /// Returns the images that see an anchor, by index.
+    pub(super) fn observers(&self, anchor: &Anchor) -> Option<Vec<u32>> {
+        let component = self.component()?;
+        Some(match (anchor.cloud, anchor.pixel) {
+            (Some(point), _) => {
+                let vertex = self.cloud_of(point)?.point(point.index)?;
+                let cameras = facing_cameras(component, &vertex).into_iter();
+                cameras.map(|(image, _)| image).collect()
+            }
+            (None, Some(_)) => {
+                let images = anchor.photos().map(|photo| self.place(photo));
+                images
+                    .map(|image| Some(image? as u32))
+                    .collect::<Option<_>>()?
+            }
+            (None, None) => {
+                let track = &component.points[self.anchored_point(anchor)?].track;
+                track.iter().map(|(image, _)| *image).collect()
+            }
+        })
     }
 
     /// Returns an anchor for a point of the current component.
@@ -121,36 +133,6 @@ impl Project {
             sigma: libm::sqrt(variance.max(0.0)),
         })
     }
-
-    /// Returns the scale set by the first measure of known length.
-    pub fn scale(&self) -> Option<Scale> {
-        let mut measures = self.document.measures.iter().enumerate();
-        measures.find_map(|(index, measure)| {
-            let (meters, units) = (measure.length_m?, self.length_in_units(measure)?);
-            Some(Scale {
-                meters_per_unit: meters / units.value,
-                relative_sigma: units.sigma / units.value,
-                measure: index,
-            })
-        })
-    }
-
-    /// Returns the length of a measure in meters by the scale; exact for the one that sets it.
-    pub fn length_in_meters(&self, index: usize) -> Option<Length> {
-        let scale = self.scale()?;
-        let measure = self.document.measures.get(index)?;
-        let units = self.length_in_units(measure)?;
-        let value = units.value * scale.meters_per_unit;
-        if index == scale.measure {
-            return Some(Length { value, sigma: 0.0 });
-        }
-        let own = units.sigma / units.value;
-        let share_sq = own * own + scale.relative_sigma * scale.relative_sigma;
-        Some(Length {
-            value,
-            sigma: value * libm::sqrt(share_sq),
-        })
-    }
 }
 
 /// Estimates the standard deviation of a keypoint in each direction from all reprojection errors:
@@ -195,12 +177,28 @@ fn cloud_covariance(
     cloud: &DenseCloud,
     point: &CloudVertex,
 ) -> Option<Matrix3<f64>> {
+    let cameras: Vec<_> = (facing_cameras(component, point).into_iter())
+        .map(|(_, camera)| camera)
+        .collect();
+    let noise_px = DISPARITY_SIGMA_PX * cloud.pixel_px;
+    covariance_from(&cameras, &point.position.into(), noise_px)
+}
+
+/// Returns as many cameras as agree on a point, those that its surface faces most, with the indices
+/// of their images.
+fn facing_cameras<'a>(
+    component: &'a Component,
+    point: &CloudVertex,
+) -> Vec<(u32, &'a CameraFound)> {
     let (position, normal) = (Point3::from(point.position), Vector3::from(point.normal));
     let away = |camera: &CameraFound| -(camera.center() - position).normalize().dot(&normal);
-    let mut cameras: Vec<&CameraFound> = component.cameras.iter().flatten().collect();
-    cameras.sort_by(|a, b| away(a).total_cmp(&away(b)));
+    let cameras = component.cameras.iter().zip(0_u32..);
+    let registered =
+        |(camera, image): (&'a Option<CameraFound>, u32)| Some((image, camera.as_ref()?));
+    let mut cameras: Vec<_> = cameras.filter_map(registered).collect();
+    cameras.sort_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)));
     cameras.truncate(usize::from(point.num_views).max(2));
-    covariance_from(&cameras, &position, DISPARITY_SIGMA_PX * cloud.pixel_px)
+    cameras
 }
 
 /// Returns the covariance of a sparse point for fixed cameras.

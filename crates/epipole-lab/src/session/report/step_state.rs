@@ -36,7 +36,7 @@ impl Project {
                 states.entry(step).or_insert(StepState::Done);
             }
         }
-        if !self.document.measures.is_empty() {
+        if self.document.has_measures() {
             states.insert(Step::Measure, StepState::Done);
         }
         states

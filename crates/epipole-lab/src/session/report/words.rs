@@ -249,19 +249,17 @@ impl Project {
         if self.component().is_none() {
             return "There is nothing to measure yet.".to_owned();
         }
-        if self.document.measures.is_empty() {
+        if !self.document.has_measures() {
             return format!(
                 "Choose two points and type the length between them: it sets the scale.{}",
                 self.floor_words()
             );
         }
-        let mut words = match self.scale() {
-            Some(_) => "The scale is set.".to_owned(),
-            None => "The scale is not set: type a length that you know.".to_owned(),
-        };
+        let mut words = self.scale_words();
         for index in 0..self.document.measures.len() {
             words.push_str(&format!(" {}: {}.", index + 1, self.length_words(index)));
         }
+        words.push_str(&self.figure_words());
         words.push_str(self.floor_words());
         words
     }
@@ -321,7 +319,7 @@ impl Project {
 }
 
 /// Formats a value with as many digits as its standard deviation justifies.
-fn with_sigma(value: f64, sigma: f64) -> String {
-    let digits = (1.0 - libm::floor(libm::log10(sigma.max(1e-9)))).clamp(0.0, 6.0) as usize;
+pub(super) fn with_sigma(value: f64, sigma: f64) -> String {
+    let digits = (1.0 - libm::floor(libm::log10(sigma.max(1e-9)))).clamp(0.0, 9.0) as usize;
     format!("{value:.digits$} ± {sigma:.digits$}")
 }

@@ -1,5 +1,6 @@
 //! Contents of the zip file of a reconstruction.
 
+use super::measured::Measures;
 use crate::project::Blob;
 use crate::tasks::dense::Dense;
 use crate::tasks::dense_cloud::DenseCloud;
@@ -19,19 +20,6 @@ pub struct Recipe {
     pub camera_json: Option<String>,
     /// Equivalent program, if there is one.
     pub program: Option<String>,
-}
-
-/// A measured length, in units of the reconstruction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Measured {
-    /// Positions of both ends.
-    pub ends: [[f64; 3]; 2],
-    /// The length, in meters if the scale is known.
-    pub length: f64,
-    /// Its standard deviation.
-    pub sigma: f64,
-    /// Length typed by the reader, meters.
-    pub typed_m: Option<f64>,
 }
 
 /// Format of cameras and points in the zip file.
@@ -118,10 +106,11 @@ pub struct Export {
     pub unit_of: Option<String>,
     /// Meters per unit of the reconstruction, if the scale is known.
     pub meters_per_unit: Option<f64>,
-    /// A point of the floor and the up direction, which is z in all files.
+    /// A point of the floor and the up direction, which is z in all files; `None` with an alignment
+    /// to control points.
     pub floor: Option<[[f64; 3]; 2]>,
-    /// Measured lengths.
-    pub measures: Vec<Measured>,
+    /// All measures.
+    pub measures: Measures,
     /// Whether focal lengths were refined.
     pub focal_refined: bool,
     /// Names of photographs without a camera, with the reason.

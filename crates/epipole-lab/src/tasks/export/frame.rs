@@ -1,4 +1,5 @@
-//! Frame of the exported files: meters if the scale is known, z up from the floor if it is set.
+//! Frame of the exported files: that of control points or, without them, meters if the scale is
+//! known, and z up from the floor if it is set.
 
 use super::contents::Export;
 use crate::tasks::camera_found::CameraFound;
@@ -6,6 +7,12 @@ use nalgebra::{Point3, Quaternion, Similarity3, UnitQuaternion, Vector3};
 
 /// Returns the transform from the frame of the reconstruction to that of the files.
 pub(super) fn file_from_world(export: &Export) -> Similarity3<f64> {
+    if let Some(aligned) = &export.measures.aligned {
+        let [i, j, k, w] = aligned.rotation;
+        let rotation = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
+        let translation = Vector3::from(aligned.translation);
+        return Similarity3::from_parts(translation.into(), rotation, aligned.scale);
+    }
     let scale = export.meters_per_unit.unwrap_or(1.0);
     let Some([origin, up]) = export.floor else {
         return Similarity3::from_scaling(scale);

@@ -2,7 +2,7 @@
 
 use super::contents::{Export, ExportFormat};
 use super::frame::file_from_world;
-use super::{cloud, depth, summary, texture, trajectory};
+use super::{cloud, depth, paper, report, summary, table, texture, trajectory};
 use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
@@ -41,21 +41,31 @@ impl Run for Export {
             .map(ImagePoints::sfm_image)
             .collect::<Vec<_>>();
         let mut written = BTreeSet::new();
-        for (photograph, image) in export.photographs.iter().zip(&mut images) {
+        let chosen = report::chosen_images(export);
+        let mut reduced = Vec::new();
+        for (index, (photograph, image)) in export.photographs.iter().zip(&mut images).enumerate() {
             let (name, bytes) = picture(photograph, &mut read)?;
             if !written.insert(name.clone()) {
                 return Err(format!("two photographs are called {name}"));
             }
             archive.add(&format!("images/{name}"), &bytes)?;
             image.name = name;
-            if needs_texture {
-                photos.push(pixels(photograph, &mut read)?);
+            let is_chosen = chosen.contains(&index);
+            if needs_texture || is_chosen {
+                let pixels = pixels(photograph, &mut read)?;
+                if is_chosen {
+                    reduced.push((index, report::reduced(&pixels)));
+                }
+                if needs_texture {
+                    photos.push(pixels);
+                }
             }
         }
         let sizes = (export.images.iter()).map(|image| (image.camera.width, image.camera.height));
         let mut model = found.to_core(sizes)?;
         // Otherwise the files stay identical to those of the command line.
-        if export.meters_per_unit.is_some() || export.floor.is_some() {
+        let is_placed = export.measures.aligned.is_some() || export.floor.is_some();
+        if export.meters_per_unit.is_some() || is_placed {
             model = model.moved(&file_from_world(export));
         }
         let files = Model::from_reconstruction(&model, &images);
@@ -76,8 +86,14 @@ impl Run for Export {
         let json = summary::json(export, &images, &model);
         archive.add("reconstruction.json", json.as_bytes())?;
         if !export.measures.is_empty() {
-            archive.add("measures.csv", summary::measures_csv(export).as_bytes())?;
+            archive.add("measures.csv", table::csv(export).as_bytes())?;
         }
+        let mut page = report::paper(export, &model);
+        let reduced = reduced.into_iter();
+        page.photos = (reduced
+            .filter_map(|(index, image)| report::photo(export, &model, index, image)))
+        .collect();
+        archive.add("report.pdf", &paper::pdf(&page)?)?;
         if let Some(program) = &export.recipe.program {
             archive.add("reconstruct.rs", program.as_bytes())?;
         }

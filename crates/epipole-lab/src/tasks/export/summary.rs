@@ -1,10 +1,9 @@
-//! Summary of a reconstruction: the JSON of the command line, measured lengths, and a readme.
+//! Summary of a reconstruction: the JSON of the command line with all measures, and a readme.
 
-use super::contents::{Export, Measured};
-use super::frame::file_from_world;
+use super::contents::Export;
+use super::table;
 use epipole::camera::RigidTransform;
 use epipole::sfm::{Reconstruction, SfmImage};
-use nalgebra::Point3;
 use serde_json::{Value, json};
 
 /// Returns the object that `epipole sfm --json` prints, without its duration.
@@ -49,47 +48,20 @@ pub(super) fn json(export: &Export, images: &[SfmImage], model: &Reconstruction)
         "complete": true,
         "meters_per_unit": export.meters_per_unit,
         "z_is_up": export.floor.is_some(),
-        "measures": measures(export),
+        "measures": table::lengths(export),
+        "shapes": table::shapes(export),
+        "control_points": table::control_points(export),
         "depth": super::depth::json(export),
     });
     summary.to_string()
 }
 
-/// Returns measured lengths with their ends in the frame of the files.
-fn measures(export: &Export) -> Vec<Value> {
-    let frame = file_from_world(export);
-    let one = |measure: &Measured| {
-        let ends = measure.ends.map(|end| frame * Point3::from(end));
-        json!({
-            "ends": ends.map(|end| [end.x, end.y, end.z]),
-            "length": measure.length,
-            "sigma": measure.sigma,
-            "typed_m": measure.typed_m,
-        })
-    };
-    export.measures.iter().map(one).collect()
-}
-
-/// Returns measured lengths as a table.
-pub(super) fn measures_csv(export: &Export) -> String {
-    let frame = file_from_world(export);
-    let mut text = "number,length,sigma,typed_m,x1,y1,z1,x2,y2,z2\n".to_owned();
-    for (index, measure) in export.measures.iter().enumerate() {
-        let typed = measure.typed_m.map_or(String::new(), |m| m.to_string());
-        let [a, b] = measure.ends.map(|end| frame * Point3::from(end));
-        let (number, length, sigma) = (index + 1, measure.length, measure.sigma);
-        let ends = [a.x, a.y, a.z, b.x, b.y, b.z].map(|x| x.to_string());
-        text.push_str(&format!(
-            "{number},{length},{sigma},{typed},{}\n",
-            ends.join(",")
-        ));
-    }
-    text
-}
-
 /// Describes the files, and the command that makes them.
 pub(super) fn readme(export: &Export) -> String {
     let unit = match (export.meters_per_unit, &export.unit_of) {
+        _ if export.measures.aligned.is_some() => {
+            "Coordinates are those of the control points, in meters.".to_owned()
+        }
         (Some(_), _) => "Lengths are in meters, by the length that was measured.".to_owned(),
         (None, Some(file)) => {
             format!("The unit of length is that of {file}: nothing was measured.")
@@ -137,8 +109,11 @@ pub(super) fn readme(export: &Export) -> String {
         }
     }
     if !export.measures.is_empty() {
-        text.push_str("measures.csv         the measured lengths and their ends, in the frame of points.ply\n");
+        text.push_str(
+            "measures.csv         all measures and their points, in the frame of points.ply\n",
+        );
     }
+    text.push_str("report.pdf           the measures on one page, with pictures\n");
     let up = match export.floor {
         Some(_) => " z points up from the floor.",
         None => "",

@@ -2,7 +2,7 @@
 
 use crate::common::desk::{Bench, click, open, rest};
 use egui::{Event as Input, Pos2, TouchDeviceId, TouchId, TouchPhase, pos2, vec2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use epipole_lab::session::Event;
 
 /// Clicks, and returns whether there was a point.
@@ -109,4 +109,65 @@ fn dense_points_are_measured() {
     assert_eq!(project.document().measures.len(), num_all);
     project.update(Event::Remove(pixel.second));
     assert!(project.document().measures.len() < num_all);
+}
+
+#[test]
+fn areas_and_control_points_are_made_by_clicks() {
+    let mut bench = open(900.0, 900.0);
+    click(&mut bench, "Measure");
+    let rect = space(&bench);
+    let choose = |bench: &mut Bench<'_>, name: &str| {
+        let is_word = |node: &egui_kittest::Node<'_>| {
+            node.accesskit_node().role() == egui::accesskit::Role::Label
+        };
+        for label in ["Next clicks make", name] {
+            let widget = bench.get_all_by_label(label).find(|node| !is_word(node));
+            widget.unwrap().click();
+            bench.run_steps(4);
+        }
+    };
+    let document = |bench: &Bench<'_>| bench.state().project().document().clone();
+    choose(&mut bench, "Area");
+    assert!(bench.query_by_label("Finish").is_none());
+    for at in places(rect) {
+        hits(&mut bench, at);
+        if bench.query_by_label("Finish").is_some() {
+            break;
+        }
+    }
+    assert!(document(&bench).shapes.is_empty());
+    click(&mut bench, "Finish");
+    assert_eq!(document(&bench).shapes.len(), 1);
+    assert!(bench.query_by_label_contains("Area 1: ").is_some());
+    // The figure stays chosen until it is canceled.
+    assert!(bench.query_by_label_contains("corners in order").is_some());
+    click(&mut bench, "Cancel");
+    assert!(bench.query_by_label_contains("corners in order").is_none());
+    choose(&mut bench, "Control point");
+    for at in places(rect) {
+        hits(&mut bench, at);
+        if document(&bench).control_points.len() == 2 {
+            break;
+        }
+    }
+    let names: Vec<String> = (document(&bench).control_points.iter())
+        .map(|control| control.name.clone())
+        .collect();
+    assert_eq!(names, ["P1", "P2"]);
+    click(&mut bench, "coordinates of P2 are known");
+    assert_eq!(
+        document(&bench).control_points[1].position_m,
+        Some([0.0; 3])
+    );
+    assert!(
+        bench
+            .query_by_label_contains("1 of 3 control points")
+            .is_some()
+    );
+    click(&mut bench, "Remove P1");
+    click(&mut bench, "Remove area 1");
+    assert_eq!(document(&bench).control_points.len(), 1);
+    assert!(document(&bench).shapes.is_empty());
+    click(&mut bench, "Undo");
+    assert_eq!(document(&bench).shapes.len(), 1);
 }

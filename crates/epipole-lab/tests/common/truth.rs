@@ -1,0 +1,75 @@
+//! Points of the table, with where the photographs were rendered from.
+
+use super::depth::true_camera;
+use epipole_lab::project::{Anchor, Project};
+use epipole_lab::tasks::FeaturesOf;
+use epipole_scenes::Scene;
+use nalgebra::{Point2, Point3};
+
+/// A reconstructed point and its true position, meters.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TruePoint {
+    pub(crate) anchor: Anchor,
+    /// Its position in the reconstruction.
+    pub(crate) found: Point3<f64>,
+    pub(crate) truth: Point3<f64>,
+}
+
+/// Well observed points on the top of the table.
+pub(crate) fn table_points(project: &Project) -> Vec<TruePoint> {
+    let scene = Scene::still_life();
+    let component = project.component().unwrap();
+    let mut all = Vec::new();
+    for (index, point) in component.points.iter().enumerate() {
+        if point.track.len() < 5 || point.error_px > 0.4 {
+            continue;
+        }
+        // The mean of all views: a keypoint is at its place up to a fraction of a pixel.
+        let (mut sum, mut count) = (nalgebra::Vector3::zeros(), 0.0);
+        for (image, keypoint) in &point.track {
+            let photo = &project.document().photos[*image as usize];
+            let feature = &project.get(FeaturesOf(photo.id)).unwrap().list[*keypoint as usize];
+            let camera = true_camera(*image as usize);
+            let from = camera.cam_from_world.inverse() * Point3::origin();
+            let ray = camera.ray_in_world(&Point2::new(feature.u, feature.v));
+            let hit = scene
+                .cast(&from, &ray)
+                .filter(|hit| hit.point.y.abs() < 0.002);
+            let Some(hit) = hit else {
+                count = f64::NAN;
+                break;
+            };
+            sum += hit.point.coords;
+            count += 1.0;
+        }
+        if count > 0.0 {
+            all.push(TruePoint {
+                anchor: project.anchor_of(index).unwrap(),
+                found: point.position.into(),
+                truth: (sum / count).into(),
+            });
+        }
+    }
+    all
+}
+
+/// The point nearest to a place on the table, by truth.
+pub(crate) fn nearest(points: &[TruePoint], x: f64, z: f64) -> TruePoint {
+    let away = |point: &TruePoint| libm::hypot(point.truth.x - x, point.truth.z - z);
+    let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+    *nearest.unwrap()
+}
+
+/// The four corners of the largest quadrilateral in the direction of both diagonals.
+pub(crate) fn corners(points: &[TruePoint]) -> [TruePoint; 4] {
+    let along = |x: f64, z: f64| {
+        let far = |point: &TruePoint| x * point.truth.x + z * point.truth.z;
+        *(points.iter().max_by(|a, b| far(a).total_cmp(&far(b)))).unwrap()
+    };
+    [
+        along(-1.0, -1.0),
+        along(1.0, -1.0),
+        along(1.0, 1.0),
+        along(-1.0, 1.0),
+    ]
+}
