@@ -36,8 +36,8 @@ impl Panel for Export {
         ui.label(format!(
             "Inside are images/ and {}; model.html, which shows the model in any browser; points.ply with colors; \
              reconstruction.json, as the command line prints it; and a command and a Rust program that repeat it. \
-             Measures are in measures.csv, and on one page in report.pdf. Pairs with dense depth add dense.ply and a PFM file each in depth/; the \
-             depth of all views adds fused.ply with normals and its surface, {}{}.",
+             Measures are in measures.csv, and on one page in report.pdf. Pairs with dense depth add dense.ply and \
+             a PFM file each in depth/; the depth of all views adds fused.ply with normals and its surface, {}{}.",
             self.format.place(),
             self.format.mesh(),
             match self.format.has_texture() {

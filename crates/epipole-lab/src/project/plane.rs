@@ -223,6 +223,9 @@ fn area_and_moments(outline: &[[f64; 2]]) -> (f64, [f64; 2]) {
 /// Integral of a triangle's height over a part of it with this area and these moments about its
 /// first corner.
 fn integral(triangle: &[[f64; 3]; 3], area: f64, moments: [f64; 2]) -> f64 {
+    if area == 0.0 {
+        return 0.0;
+    }
     let [a, b, c] = triangle;
     let rise = |corner: &[f64; 3]| [0, 1, 2].map(|axis| corner[axis] - a[axis]);
     let (b, c) = (rise(b), rise(c));
@@ -231,7 +234,12 @@ fn integral(triangle: &[[f64; 3]; 3], area: f64, moments: [f64; 2]) -> f64 {
         (b[2] * c[1] - b[1] * c[2]) / cross,
         (b[0] * c[2] - b[2] * c[0]) / cross,
     ];
-    a[2] * area + slope[0] * moments[0] + slope[1] * moments[1]
+    let mean = a[2] + (slope[0] * moments[0] + slope[1] * moments[1]) / area;
+    // In a nearly upright triangle, rounding would move the mean out of it.
+    let heights = triangle.iter().map(|corner| corner[2]);
+    let low = heights.clone().fold(f64::INFINITY, f64::min);
+    let high = heights.fold(f64::NEG_INFINITY, f64::max);
+    area * mean.max(low).min(high)
 }
 
 #[cfg(test)]

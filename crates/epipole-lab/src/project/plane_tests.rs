@@ -101,6 +101,19 @@ fn boxes_and_pyramids_have_their_volumes() {
 }
 
 #[test]
+fn walls_that_rounding_tilts_add_no_volume() {
+    let wide = [[-1.0, -1.0], [2.0, -1.0], [2.0, 2.0], [-1.0, 2.0]];
+    let tilted = |n: usize| {
+        let shift = 1e-17 * (n % 7) as f64;
+        move |t: [[f64; 3]; 3]| t.map(|[x, y, z]| [x + shift * z, y - 1.3 * shift * z, z])
+    };
+    for n in 0..50 {
+        let found = prisms(&wide, tent(1.0, 0.0).into_iter().map(tilted(n)));
+        near(found.volume, 1.0);
+    }
+}
+
+#[test]
 fn prisms_are_clipped_to_the_outline_whatever_its_direction() {
     let half = [[-1.0, -1.0], [0.5, -1.0], [0.5, 2.0], [-1.0, 2.0]];
     let half_pyramid = prisms(&half, tent(0.0, 0.6));

@@ -11,6 +11,7 @@ mod bad_scenes;
 mod calibrate;
 mod camera_files;
 mod figures;
+mod figures_kept;
 mod fuzz;
 mod imported;
 mod known_poses;

@@ -1,7 +1,8 @@
 //! Points of the table, with where the photographs were rendered from.
 
 use super::depth::true_camera;
-use epipole_lab::project::{Anchor, Project};
+use epipole_lab::project::{Anchor, ControlPoint, Measure, Project, Shape, ShapeKind};
+use epipole_lab::session::Event;
 use epipole_lab::tasks::FeaturesOf;
 use epipole_scenes::Scene;
 use nalgebra::{Point2, Point3};
@@ -53,13 +54,6 @@ pub(crate) fn table_points(project: &Project) -> Vec<TruePoint> {
     all
 }
 
-/// The point nearest to a place on the table, by truth.
-pub(crate) fn nearest(points: &[TruePoint], x: f64, z: f64) -> TruePoint {
-    let away = |point: &TruePoint| libm::hypot(point.truth.x - x, point.truth.z - z);
-    let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-    *nearest.unwrap()
-}
-
 /// The four corners of the largest quadrilateral in the direction of both diagonals.
 pub(crate) fn corners(points: &[TruePoint]) -> [TruePoint; 4] {
     let along = |x: f64, z: f64| {
@@ -72,4 +66,37 @@ pub(crate) fn corners(points: &[TruePoint]) -> [TruePoint; 4] {
         along(1.0, 1.0),
         along(-1.0, 1.0),
     ]
+}
+
+/// Adds a known length: the true one times a factor.
+pub(crate) fn length(project: &mut Project, a: &TruePoint, b: &TruePoint, factor: f64) {
+    project.update(Event::Measure(Measure {
+        ends: [a.anchor, b.anchor],
+        length_m: Some(factor * (a.truth - b.truth).norm()),
+    }));
+}
+
+/// A figure of points.
+pub(crate) fn shape(kind: ShapeKind, points: &[TruePoint]) -> Shape {
+    Shape {
+        kind,
+        points: points.iter().map(|point| point.anchor).collect(),
+    }
+}
+
+/// Makes points control points with their true coordinates, named T0, T1 and so on.
+pub(crate) fn control(points: &[TruePoint], project: &mut Project) {
+    for (index, point) in points.iter().enumerate() {
+        project.update(Event::AddControl(ControlPoint {
+            point: point.anchor,
+            name: format!("P{}", index + 1),
+            position_m: None,
+        }));
+        let position = point.truth.coords.into();
+        project.update(Event::ChangeControl(
+            index,
+            format!("T{index}"),
+            Some(position),
+        ));
+    }
 }
