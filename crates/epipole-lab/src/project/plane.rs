@@ -154,7 +154,7 @@ pub(crate) fn prisms(
         let flat = triangle.map(|[x, y, _]| [x, y]);
         let twice = 2.0 * signed_area(&flat);
         // NaN and triangles that stand upright cover nothing.
-        if !(twice.abs() > 0.0) {
+        if twice == 0.0 || twice.is_nan() {
             continue;
         }
         let [a, b, c] = match twice > 0.0 {

@@ -155,7 +155,7 @@ impl Project {
         let step = 1e-4 * libm::hypot(high[0] - low[0], high[1] - low[1]);
         let triangles = triangles_near(&plane, cloud, (low, high), step);
         let found = prisms(&outline, triangles.iter().copied());
-        if !(found.covered > 0.0) {
+        if found.covered <= 0.0 || found.covered.is_nan() {
             return Err("the surface has no part within its outline".to_owned());
         }
         // Only triangles at the outline change their part within it.
