@@ -90,7 +90,7 @@ impl Frame {
     fn points(&mut self, scene: &Scene, orbit: &Orbit, look: &Look) {
         let size = (self.width, self.height);
         let rotation = orbit.rotation().cast::<f32>();
-        let focal_px = Orbit::focal_px(size) as f32;
+        let focal_px = orbit.focal_px(size) as f32;
         let middle = orbit.middle.coords.cast::<f32>();
         let distance = orbit.distance as f32;
         let (half_u, half_v) = (size.0 as f32 / 2.0, size.1 as f32 / 2.0);

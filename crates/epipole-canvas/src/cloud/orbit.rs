@@ -16,6 +16,8 @@ pub struct Orbit {
     pub yaw_rad: f64,
     /// Elevation of the viewpoint, radians, −π/2 to π/2.
     pub pitch_rad: f64,
+    /// Focal length, relative to the shorter side of the picture.
+    pub focal: f64,
     /// Rotation from the world to the frame with x right, y down and z forward at zero yaw and
     /// pitch.
     upright: UnitQuaternion<f64>,
@@ -56,6 +58,7 @@ impl Orbit {
             distance: 1.9 * size,
             yaw_rad: 0.0,
             pitch_rad: 0.25,
+            focal: FOCAL,
             upright: upright(Vector3::from(down)),
             size,
         }
@@ -66,6 +69,22 @@ impl Orbit {
         let ahead = self.upright * Vector3::from(forward);
         if libm::hypot(ahead.x, ahead.z) > 1e-9 * ahead.norm() {
             self.yaw_rad = libm::atan2(-ahead.x, ahead.z);
+        }
+    }
+
+    /// Returns the view of a camera: from its place, in its direction.
+    ///
+    /// * `rotation`: from the world to the camera
+    /// * `distance`: distance of the center of the orbit ahead of the camera
+    #[must_use]
+    pub fn through(&self, rotation: Rotation3<f64>, eye: Point3<f64>, distance: f64) -> Self {
+        Self {
+            middle: eye + rotation.inverse() * Vector3::new(0.0, 0.0, distance),
+            distance,
+            yaw_rad: 0.0,
+            pitch_rad: 0.0,
+            upright: UnitQuaternion::from_rotation_matrix(&rotation),
+            ..*self
         }
     }
 
@@ -102,8 +121,8 @@ impl Orbit {
     }
 
     /// Returns the focal length for a picture of this size, pixels.
-    pub fn focal_px(size: (usize, usize)) -> f64 {
-        FOCAL * size.0.min(size.1) as f64
+    pub fn focal_px(&self, size: (usize, usize)) -> f64 {
+        self.focal * size.0.min(size.1) as f64
     }
 
     /// Rotates the view, radians.
@@ -115,7 +134,7 @@ impl Orbit {
 
     /// Moves the center so that the picture moves by these pixels.
     pub fn pan(&mut self, right_px: f64, down_px: f64, size: (usize, usize)) {
-        let units = self.distance / Self::focal_px(size).max(1.0);
+        let units = self.distance / self.focal_px(size).max(1.0);
         let moved = Vector3::new(-right_px * units, -down_px * units, 0.0);
         self.middle += self.rotation().transpose() * moved;
     }
@@ -136,7 +155,7 @@ impl Orbit {
         if depth <= NEAREST * self.size {
             return None;
         }
-        let focal_px = Self::focal_px(size);
+        let focal_px = self.focal_px(size);
         let pixel = [
             focal_px * p.x / depth + size.0 as f64 / 2.0,
             focal_px * p.y / depth + size.1 as f64 / 2.0,
@@ -161,6 +180,23 @@ fn upright(down: Vector3<f64>) -> UnitQuaternion<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_view_through_a_camera_sees_what_the_camera_sees() {
+        let rotation = Rotation3::from_euler_angles(0.3, -1.2, 0.7);
+        let eye = Point3::new(1.0, -2.0, 0.5);
+        let scene = Scene::default();
+        let mut orbit = Orbit::around(&scene, [0.0, 1.0, 0.0]).through(rotation, eye, 3.0);
+        orbit.focal = 0.9;
+        for place in [[0.2, 0.1, 2.0], [-1.0, 0.4, 5.0]] {
+            let p = Vector3::from(place);
+            let world = (eye + rotation.inverse() * p).cast::<f32>().into();
+            let ([u, v], depth) = orbit.project(world, (400, 300)).expect("it is in front");
+            assert!((depth - p.z).abs() < 1e-5, "{depth}");
+            assert!((u - (270.0 * p.x / p.z + 200.0)).abs() < 1e-3, "{u}");
+            assert!((v - (270.0 * p.y / p.z + 150.0)).abs() < 1e-3, "{v}");
+        }
+    }
 
     #[test]
     fn all_points_fill_the_picture() {

@@ -51,7 +51,7 @@ impl<'a> ProjectedPicture<'a> {
         let fractions_of_ray = sides
             .try_inverse()
             .filter(|m| m.iter().all(|x| x.is_finite()))?;
-        let focal_px = Orbit::focal_px(size);
+        let focal_px = orbit.focal_px(size);
         let half = (size.0 as f64 / 2.0, size.1 as f64 / 2.0);
         let corners = [corner, corner + right, corner + right + down, corner + down];
         let (mut columns, mut rows) = (0..size.0, 0..size.1);

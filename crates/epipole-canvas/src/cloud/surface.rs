@@ -54,7 +54,7 @@ fn corners(
     let rotation = orbit.rotation().cast::<f32>();
     let middle = orbit.middle.coords.cast::<f32>();
     let distance = orbit.distance as f32;
-    let focal_px = Orbit::focal_px(size) as f32;
+    let focal_px = orbit.focal_px(size) as f32;
     let half = [size.0 as f32 / 2.0, size.1 as f32 / 2.0];
     let corner = |&(place, color): &([f32; 3], [u8; 3])| {
         let mut in_view = rotation * (nalgebra::Vector3::from(place) - middle);
