@@ -2,8 +2,10 @@
 
 use super::board_options::LensCamera;
 use super::bytes::Blob;
+use super::crop::CropBox;
 use super::key::Key;
 use super::known_poses::KnownPoses;
+use super::point_set::PointSet;
 use super::sample::Sample;
 use super::settings::Settings;
 use super::shape::{ControlPoint, Shape};
@@ -123,6 +125,10 @@ pub struct Document {
     pub camera: Option<LensCamera>,
     /// Cameras and poses of a model of another program.
     pub poses: Option<KnownPoses>,
+    /// Box that limits the model.
+    pub crop: Option<CropBox>,
+    /// Deleted points.
+    pub deleted: PointSet,
 }
 
 impl Document {

@@ -5,11 +5,15 @@ mod board_options;
 mod bytes;
 mod cache;
 mod computed;
+mod crop;
 mod document;
 mod key;
 mod known_poses;
+mod mask;
 mod options;
 mod plane;
+mod point_set;
+mod results;
 mod sample;
 mod saved;
 mod settings;
@@ -21,17 +25,21 @@ pub use board_options::{BoardOptions, BoardPattern, CalibrationOptions, LensCame
 pub use bytes::Blob;
 pub(crate) use bytes::to_bytes;
 pub use computed::{COMPUTED_BY, Computed};
+pub use crop::CropBox;
 pub(crate) use document::content_of;
 pub use document::{
     Anchor, CloudPoint, DensePixel, Document, InputPhoto, Measure, PhotoId, Source, pairs,
 };
 pub use key::Key;
 pub use known_poses::{KnownImage, KnownPoses, Pose, file_stem};
+pub use mask::Mask;
 pub use options::{
     AllViewsOptions, DepthMethod, DepthOptions, FeatureKind, FeatureOptions, MatchOptions,
     PairOptions, SfmOptions,
 };
 pub(crate) use plane::{Plane, bounds, height_weights, is_simple, prisms, signed_area};
+pub use point_set::PointSet;
+pub(crate) use results::Found;
 pub use sample::Sample;
 pub use saved::{Saved, SavedPhoto, VERSION};
 pub use settings::{

@@ -4,6 +4,7 @@ use super::bytes::Blob;
 use super::cache::Cache;
 use super::document::{Document, PhotoId};
 use super::key::Key;
+use super::results::Results;
 use super::shape::ShapeValue;
 use super::step::Step;
 use std::cell::RefCell;
@@ -78,6 +79,8 @@ pub struct Project {
     pub(crate) revision: u64,
     /// Volumes by the key of their inputs.
     pub(crate) volumes: RefCell<BTreeMap<Key, Result<ShapeValue, String>>>,
+    /// Current reconstruction and the one before.
+    pub(crate) results: Results,
     /// Outcomes of photographs, cached per revision, as panels read them in every frame.
     pub(crate) outcomes: RefCell<(u64, BTreeMap<PhotoId, Outcome>)>,
 }
@@ -103,6 +106,7 @@ impl Default for Project {
             unread: BTreeSet::new(),
             revision: 0,
             volumes: RefCell::default(),
+            results: Results::default(),
             outcomes: RefCell::default(),
         }
     }

@@ -1,8 +1,8 @@
 //! Actions of the reader.
 
 use crate::project::{
-    Anchor, Blob, ControlPoint, KnownPoses, LensCamera, Measure, PhotoId, Sample, Saved, Settings,
-    Shape, Step,
+    Anchor, Blob, ControlPoint, CropBox, KnownPoses, LensCamera, Measure, PhotoId, PointSet,
+    Sample, Saved, Settings, Shape, Step,
 };
 
 /// Action of the reader.
@@ -60,6 +60,12 @@ pub enum Event {
     Dense(PhotoId, PhotoId, bool),
     /// Added the depth of all views to the cloud, or removed it.
     AllViews(bool),
+    /// Limited the model to a box, or removed the box.
+    Crop(Option<CropBox>),
+    /// Deleted points.
+    Delete(PointSet),
+    /// Restored all deleted points.
+    Restore,
     /// Reverted the last change.
     Undo,
     /// Restored the change reverted last.

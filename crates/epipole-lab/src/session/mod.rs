@@ -8,6 +8,7 @@
 //! [`Project::pending`]: crate::project::Project::pending
 
 mod boards;
+mod edit;
 mod event;
 mod figures;
 #[cfg(feature = "panels")]
@@ -26,6 +27,7 @@ mod update;
 #[cfg(feature = "panels")]
 mod videos;
 
+pub use edit::{Kept, Layers, Members};
 pub use event::Event;
 #[cfg(feature = "panels")]
 pub use host::{Host, HostEvent, JobId, Report, Stored};

@@ -103,6 +103,7 @@ impl Project {
             Err(_) if self.rereading.contains(&key) => drop(self.unread.insert(key)),
             Err(sentence) => self.cache.fail(key, sentence),
         }
+        self.note_result();
         let needed = self.needed();
         self.cache.evict(|key| needed.contains_key(&key));
         self.take_imported();

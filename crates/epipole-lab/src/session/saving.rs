@@ -1,8 +1,8 @@
 //! Conversion between a project and its saved form.
 
 use crate::project::{
-    Anchor, Blob, Computed, ControlPoint, Document, InputPhoto, Key, KnownPoses, LensCamera,
-    Measure, PhotoId, Project, Saved, SavedPhoto, Shape, Source, VERSION,
+    Anchor, Blob, Computed, ControlPoint, CropBox, Document, InputPhoto, Key, KnownPoses,
+    LensCamera, Measure, PhotoId, PointSet, Project, Saved, SavedPhoto, Shape, Source, VERSION,
 };
 use crate::tasks::{Packed, SaveProject};
 
@@ -65,6 +65,17 @@ fn all_renumbered<const N: usize>(
     Some(ends)
 }
 
+/// Renumbers the photographs of points, without those that are gone.
+fn points_renumbered(points: &PointSet, number: impl Fn(PhotoId) -> Option<PhotoId>) -> PointSet {
+    let keypoints = points.keypoints.iter();
+    PointSet {
+        keypoints: keypoints
+            .filter_map(|(photo, mask)| Some((number(*photo)?, mask.clone())))
+            .collect(),
+        clouds: points.clouds.clone(),
+    }
+}
+
 impl Project {
     /// Returns the saved form, without the files of photographs.
     fn saved(&self) -> Saved {
@@ -93,6 +104,8 @@ impl Project {
             boards: self.document.boards.iter().map(saved_photo).collect(),
             camera: self.document.camera.clone(),
             poses: self.document.poses.clone(),
+            crop: self.document.crop,
+            deleted: points_renumbered(&self.document.deleted, place),
         }
     }
 
@@ -177,6 +190,8 @@ impl Project {
             .filter(ControlPoint::is_valid)
             .collect();
         document.floor = saved.floor.and_then(|ends| all_renumbered(ends, number));
+        document.crop = saved.crop.filter(CropBox::is_valid);
+        document.deleted = points_renumbered(&saved.deleted, number);
         for (a, b) in saved.dense {
             if let (Some(a), Some(b)) = (number(a), number(b))
                 && a != b

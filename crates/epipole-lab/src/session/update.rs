@@ -2,7 +2,8 @@
 
 use super::event::Event;
 use crate::project::{
-    Anchor, Blob, Document, InputPhoto, Measure, PhotoId, Project, Sample, Source, Step, content_of,
+    Anchor, Blob, CropBox, Document, InputPhoto, Measure, PhotoId, PointSet, Project, Sample,
+    Source, Step, content_of,
 };
 use crate::tasks::ReconstructionOfAll;
 
@@ -14,6 +15,7 @@ impl Project {
     pub fn update(&mut self, event: Event) {
         self.revision += 1;
         self.carry_out(event);
+        self.note_result();
         self.balance_pixels();
     }
 
@@ -56,6 +58,7 @@ impl Project {
                 let floor = self.document.floor.take();
                 self.document.floor = floor.filter(|ends| !ends.iter().any(is_of));
                 self.document.dense.retain(|(a, b)| *a != id && *b != id);
+                (self.document.deleted.keypoints).retain(|(photo, _)| *photo != id);
             }
             Event::Clear => {
                 self.clear();
@@ -122,6 +125,19 @@ impl Project {
                 }
             }
             Event::AllViews(is_part) => self.document.all_views = is_part,
+            Event::Crop(crop) => {
+                if crop.as_ref().is_none_or(CropBox::is_valid) {
+                    self.document.crop = crop;
+                }
+            }
+            Event::Delete(mut points) => {
+                let photos = &self.document.photos;
+                let is_known = |id: PhotoId| photos.iter().any(|photo| photo.id == id);
+                points.keypoints.retain(|(photo, _)| is_known(*photo));
+                let deleted = self.document.deleted.with(&points);
+                self.document.deleted = deleted;
+            }
+            Event::Restore => self.document.deleted = PointSet::default(),
         }
         if self.document != before {
             self.remember(before);
@@ -194,6 +210,8 @@ impl Project {
         self.document.dense.clear();
         self.document.all_views = false;
         self.document.poses = None;
+        self.document.crop = None;
+        self.document.deleted = PointSet::default();
     }
 
     /// Clears the undo history.

@@ -44,6 +44,7 @@ mod reduced;
 mod refined;
 #[cfg(feature = "files")]
 mod rendered;
+mod retained;
 mod task;
 mod thumbnail;
 mod two_views;

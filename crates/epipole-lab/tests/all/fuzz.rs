@@ -2,8 +2,8 @@
 
 use crate::common::output;
 use epipole_lab::project::{
-    Anchor, Blob, CloudPoint, ControlPoint, DensePixel, LensCamera, LensModel, Measure, Project,
-    Sample, Settings, Shape, ShapeKind, Step,
+    Anchor, Blob, CloudPoint, ControlPoint, CropBox, DensePixel, LensCamera, LensModel, Mask,
+    Measure, PointSet, Project, Sample, Settings, Shape, ShapeKind, Step,
 };
 use epipole_lab::session::Event;
 use epipole_lab::tasks::OpenProject;
@@ -55,6 +55,24 @@ fn settings() -> impl Strategy<Value = Settings> {
         })
 }
 
+fn crop() -> impl Strategy<Value = CropBox> {
+    (any::<[f64; 3]>(), prop::bool::ANY).prop_map(|(low, is_rotation)| CropBox {
+        of: 1,
+        component: 0,
+        origin: [0.0; 3],
+        rotation: [0.0, 0.0, 0.0, f64::from(u8::from(is_rotation))],
+        low,
+        high: low.map(|x| x + 1.0),
+    })
+}
+
+fn points() -> impl Strategy<Value = PointSet> {
+    (0..14_u32, 0..3_u64, 0..99_u32).prop_map(|(photo, cloud, index)| PointSet {
+        keypoints: vec![(photo, Mask::of([index]))],
+        clouds: vec![(cloud, Mask::of([index]))],
+    })
+}
+
 fn event() -> impl Strategy<Value = Event> {
     let id = 0..14_u32;
     let pixel = || {
@@ -92,6 +110,9 @@ fn event() -> impl Strategy<Value = Event> {
         Just(Event::ClearBoards),
         prop::option::of(lens_camera()).prop_map(Event::UseCamera),
         any::<bool>().prop_map(Event::AllViews),
+        prop::option::of(crop()).prop_map(Event::Crop),
+        points().prop_map(Event::Delete),
+        Just(Event::Restore),
         (id.clone(), any::<bool>()).prop_map(|(id, out)| Event::Exclude(id, out)),
         (id.clone(), length()).prop_map(|(id, f)| Event::Focal(vec![id], f)),
         id.clone().prop_map(Event::Earlier),

@@ -10,6 +10,7 @@ mod bad_files;
 mod bad_scenes;
 mod calibrate;
 mod camera_files;
+mod editing;
 mod figures;
 mod figures_kept;
 mod fuzz;

@@ -23,13 +23,21 @@ impl Project {
                 camera: self.lens_camera(photo).cloned(),
             })
         };
+        let images = self.image_points()?;
+        let (found, uncropped) = self.kept_reconstruction(found, &images);
+        let mut recipe = self.recipe()?;
+        if !self.edit_words().is_empty() {
+            let words = format!(" {} The command finds them again.", self.edit_words());
+            recipe.photographs.push_str(&words);
+        }
         Some(Export {
             format,
-            images: self.image_points()?,
+            images,
             photographs: (self.taking_part().iter())
                 .map(pack)
                 .collect::<Option<_>>()?,
-            found: found.clone(),
+            found,
+            uncropped,
             component: self.view.component as u32,
             unit_of: self.document.poses.as_ref().map(|poses| poses.file.clone()),
             meters_per_unit: self.scale().map(|scale| scale.meters_per_unit),
@@ -42,12 +50,14 @@ impl Project {
                 .filter(|photo| !matches!(self.outcome(photo), Outcome::Registered(_)))
                 .map(|photo| (photo.name.clone(), self.outcome_words(photo)))
                 .collect(),
-            recipe: self.recipe()?,
+            recipe,
             max_pixels: self.max_pixels(),
             dense: (self.dense_pairs().into_iter())
-                .map(|(_, first, second, dense)| (pair_name(first, second), dense.clone()))
+                .map(|(key, first, second, dense)| {
+                    (pair_name(first, second), self.kept_pair(key, dense))
+                })
                 .collect(),
-            all_views: self.all_views().map(|(_, cloud)| cloud.clone()),
+            all_views: self.kept_views(),
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::project::Blob;
 use crate::tasks::dense::Dense;
 use crate::tasks::dense_cloud::DenseCloud;
 use crate::tasks::project_file::Packed;
-use crate::tasks::reconstruction::{ImagePoints, Reconstructed};
+use crate::tasks::reconstruction::{Component, ImagePoints, Reconstructed};
 use crate::tasks::task::Task;
 use serde::{Deserialize, Serialize};
 
@@ -102,6 +102,9 @@ pub struct Export {
     pub found: Reconstructed,
     /// Index of the component.
     pub component: u32,
+    /// The component with all points, if some are left out: what photographs see in common, for
+    /// the texture.
+    pub uncropped: Option<Component>,
     /// File of the known poses that determine the unit of length.
     pub unit_of: Option<String>,
     /// Meters per unit of the reconstruction, if the scale is known.

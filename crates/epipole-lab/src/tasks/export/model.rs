@@ -7,7 +7,7 @@ use crate::project::{Blob, Source};
 use crate::tasks::archive::Archive;
 use crate::tasks::photograph::{Photograph, ReadPhotograph};
 use crate::tasks::project_file::Packed;
-use crate::tasks::reconstruction::ImagePoints;
+use crate::tasks::reconstruction::{Component, ImagePoints};
 use crate::tasks::task::{Monitor, Run};
 use epipole_io::model::{Model, ModelFormat};
 use epipole_io::photo::encode_jpeg;
@@ -62,16 +62,25 @@ impl Run for Export {
             }
         }
         let sizes = (export.images.iter()).map(|image| (image.camera.width, image.camera.height));
-        let mut model = found.to_core(sizes)?;
         // Otherwise the files stay identical to those of the command line.
         let is_placed = export.measures.aligned.is_some() || export.floor.is_some();
-        if export.meters_per_unit.is_some() || is_placed {
-            model = model.moved(&file_from_world(export));
-        }
+        let is_moved = export.meters_per_unit.is_some() || is_placed;
+        let to_core = |component: &Component| {
+            let model = component.to_core(sizes.clone())?;
+            Ok::<_, String>(match is_moved {
+                true => model.moved(&file_from_world(export)),
+                false => model,
+            })
+        };
+        let model = to_core(found)?;
         let files = Model::from_reconstruction(&model, &images);
         add_model(&mut archive, export.format, &files)?;
         let texture = match needs_texture {
-            true => texture::texture(&model, &surface, &photos, monitor)?,
+            true => {
+                let uncropped = export.uncropped.as_ref().map(to_core).transpose()?;
+                let views = uncropped.as_ref().unwrap_or(&model);
+                texture::texture(views, &surface, &photos, monitor)?
+            }
             false => None,
         };
         drop(photos);
@@ -134,7 +143,7 @@ fn check_indices(export: &Export) -> Result<(), String> {
         (export.images.get(image as usize))
             .is_some_and(|image| (keypoint as usize) < image.points.len())
     };
-    let mut components = export.found.components.iter();
+    let mut components = (export.found.components.iter()).chain(&export.uncropped);
     let whole = components.all(|component| {
         let mut points = component.points.iter();
         component.cameras.len() == export.images.len()
