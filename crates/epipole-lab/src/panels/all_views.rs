@@ -2,6 +2,7 @@
 
 use super::screen::Screen;
 use super::widgets::{controls, look};
+use super::{edit, view};
 use crate::project::{ALL_VIEWS_MEGAPIXELS, Step};
 use crate::session::{Event, count};
 use crate::tasks::{AllViews, DenseCloud};
@@ -27,11 +28,10 @@ pub(super) fn controls(screen: &mut Screen<'_>, ui: &mut Ui) {
             let has_surface = cloud.triangles().len() > 0;
             ui.add_enabled_ui(has_surface, |ui| ui.radio_value(surface, true, "surface"));
         });
-        ui.checkbox(&mut screen.views.cloud.sparse, "Show sparse points");
-        ui.checkbox(&mut screen.views.cloud.photographs, "Show photographs");
-        if ui.button("Reset view").clicked() {
-            screen.views.cloud.look_at_all();
-        }
+        view::controls(screen, ui);
+        ui.separator();
+        edit::controls(screen, ui);
+        ui.separator();
     }
     match is_asked {
         false => {

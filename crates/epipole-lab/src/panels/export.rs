@@ -60,6 +60,10 @@ impl Panel for Export {
                 "The unit is arbitrary. Measure a known length to get meters.".to_owned()
             }
         });
+        let words = project.edit_words();
+        if !words.is_empty() {
+            ui.weak(words);
+        }
         if project.floor().is_some() && project.alignment().is_none() {
             ui.weak("z points up from the floor.");
         }

@@ -4,6 +4,7 @@ mod all_views;
 mod calibrate;
 mod depth;
 mod depth_controls;
+mod edit;
 mod export;
 mod features;
 mod matches;
@@ -12,6 +13,7 @@ mod photographs;
 mod reconstruction;
 mod screen;
 mod two_views;
+mod view;
 pub(crate) mod widgets;
 
 pub(crate) use screen::{Action, Panel, Screen, Views};

@@ -1,9 +1,11 @@
 //! Cameras and points, why photographs were left out, and how the cost fell.
 
 use super::screen::{Action, Panel, Screen};
-use super::widgets::cloud::{CloudView, Coloring};
+use super::widgets::cloud::CloudView;
 use super::widgets::controls::{self, Change};
-use super::widgets::{has_dense, look, observations, verdict};
+use super::widgets::scene::Coloring;
+use super::widgets::{look, observations, verdict};
+use super::{edit, view};
 use crate::project::{Project, RefineFocal, Step};
 use crate::session::Event;
 use crate::tasks::ReconstructionOfAll;
@@ -31,7 +33,10 @@ impl Panel for Reconstruction {
                 }
             }
             ui.separator();
-            view(project, &mut screen.views.cloud, ui);
+            colors(project, &mut screen.views.cloud, ui);
+            view::controls(screen, ui);
+            ui.separator();
+            edit::controls(screen, ui);
             ui.separator();
         }
         cameras(screen, ui);
@@ -104,8 +109,8 @@ fn why_none(project: &Project) -> String {
     words
 }
 
-/// Draws the view options of the point cloud.
-fn view(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
+/// Draws the selected point, and the choice of colors.
+fn colors(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
     point(project, cloud.point, ui);
     ui.horizontal_wrapped(|ui| {
         ui.weak("Color by");
@@ -117,17 +122,10 @@ fn view(project: &Project, cloud: &mut CloudView, ui: &mut Ui) {
             ui.radio_value(&mut cloud.coloring, coloring, name);
         }
     });
-    ui.checkbox(&mut cloud.photographs, "Show photographs");
-    if has_dense(project) {
-        ui.checkbox(&mut cloud.sparse, "Show sparse points");
-    }
     match cloud.coloring {
         Coloring::Photographs => {}
         Coloring::Error => drop(ui.weak("dark: 0 px, yellow: 2 px or more")),
         Coloring::Track => drop(ui.weak("dark: two photographs, yellow: eight or more")),
-    }
-    if ui.button("Reset view").clicked() {
-        cloud.look_at_all();
     }
 }
 
@@ -163,6 +161,9 @@ fn numbers(screen: &mut Screen<'_>, ui: &mut Ui) {
     controls::row(ui, "points", component.points.len().to_string());
     if let Some(mean_px) = found.mean_error_px.get(current) {
         controls::row(ui, "mean reprojection error", format!("{mean_px:.3} px"));
+    }
+    if let Some(words) = project.change_words() {
+        ui.weak(words);
     }
     let is_corrected = project.before_correction_px().is_some();
     if (project.sfm_options().refine_focal || is_corrected)

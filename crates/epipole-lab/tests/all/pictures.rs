@@ -95,6 +95,9 @@ fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
             }
             rest(&mut bench);
             check(&bench, &raster, &name, width);
+            if step == Step::Reconstruction {
+                tools(&mut bench, &raster, &name, width);
+            }
             if step == Step::Depth {
                 all_views(&mut bench);
                 check(&bench, &raster, &format!("{name}-all-views"), width);
@@ -106,6 +109,33 @@ fn go_through(width: f32, height: f32, scale: f32, screen: &str) {
             }
         }
     }
+}
+
+/// The box, a selection, and the view through a camera.
+fn tools(bench: &mut Bench<'_>, raster: &Raster, name: &str, width: f32) {
+    let press = |bench: &mut Bench<'_>, label: &str| {
+        let is_word = |node: &egui_kittest::Node<'_>| {
+            node.accesskit_node().role() == egui::accesskit::Role::Label
+        };
+        let mut named = bench.get_all_by_label(label);
+        let button = named.find(|node| !is_word(node)).unwrap();
+        button.scroll_to_me();
+        button.click_accesskit();
+        rest(bench);
+    };
+    press(bench, "box");
+    press(bench, "Fit to the model");
+    check(bench, raster, &format!("{name}-box"), width);
+    press(bench, "select");
+    press(bench, "Select points seen by fewer than");
+    check(bench, raster, &format!("{name}-selection"), width);
+    press(bench, "Clear");
+    press(bench, "look");
+    press(bench, "Undo");
+    press(bench, "Look through");
+    press(bench, "table-4.png");
+    check(bench, raster, &format!("{name}-through"), width);
+    press(bench, "Return to the view before");
 }
 
 fn check(bench: &Bench<'_>, raster: &Raster, name: &str, width: f32) {

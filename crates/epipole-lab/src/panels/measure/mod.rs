@@ -116,7 +116,8 @@ impl Panel for Measuring {
             ui,
             painter: ui.painter_at(rect),
             place: |anchor: &Anchor| {
-                let place = project.anchored(anchor)?;
+                let kept = project.is_kept(anchor).then_some(anchor)?;
+                let place = project.anchored(kept)?;
                 screen.views.cloud.place_of(place, rect)
             },
         };

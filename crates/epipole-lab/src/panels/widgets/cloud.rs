@@ -1,54 +1,28 @@
 //! Cameras and points in 3D: rotation, panning and zoom by mouse, touch and keys.
 
+use super::ground::{edges, scale_bar};
+use super::lasso::{Selection, Tool};
 use super::look;
-use super::marks::{add_dense, dense_keys, frustum, has_dense, rays, standing};
+use super::marks::{has_dense, rays};
 use super::pick::{Click, crosshair, pick};
-use super::steer::{frame, steer};
-use crate::project::{Blob, Key, Project};
-use crate::session::Floor;
-use crate::tasks::{Component, Query, ReconstructionOfAll};
+use super::scene::{Coloring, Made};
+use super::steer::steer;
+use super::through::Through;
+use crate::project::{Blob, CropBox, Project};
+use crate::tasks::{Query, ReconstructionOfAll};
 use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};
 use epipole_canvas::cloud::{Frame, Look, Orbit, Scene};
-use epipole_canvas::theme::{Role, Theme};
+use epipole_canvas::theme::Role;
 use std::time::Duration;
-
-/// Meaning of a point's color.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Coloring {
-    /// Colors of the photographs.
-    #[default]
-    Photographs,
-    /// Reprojection error.
-    Error,
-    /// Track length: number of photographs that see it.
-    Track,
-}
-
-/// Inputs of the current scene; it is rebuilt when they change.
-#[derive(Clone, PartialEq)]
-struct Made {
-    key: Key,
-    component: usize,
-    coloring: Coloring,
-    theme: Theme,
-    /// Number of photographs shown in their frusta.
-    photographs: usize,
-    /// Whether sparse points are shown.
-    sparse: bool,
-    /// Whether the surface of all views is shown.
-    surface: bool,
-    /// Number of cameras so far, during a reconstruction.
-    growing: Option<usize>,
-    dense: Vec<Key>,
-    floor: Option<Floor>,
-}
 
 /// Inputs of the last frame; it is redrawn when they change.
 #[derive(Clone, PartialEq)]
-struct Drawn {
+pub(super) struct Drawn {
     orbit: Orbit,
     size: (usize, usize),
     point: Option<usize>,
+    crop: Option<CropBox>,
+    point_size: f64,
     coarse: bool,
 }
 
@@ -61,19 +35,39 @@ pub(crate) struct CloudView {
     pub(crate) sparse: bool,
     /// Whether the surface of all views is shown in place of their points.
     pub(crate) surface: bool,
+    /// Whether dense points or the surface are shown.
+    pub(crate) dense: bool,
+    /// Whether cameras are shown.
+    pub(crate) cameras: bool,
+    /// Whether the grid of the floor is shown.
+    pub(crate) grid: bool,
+    /// Size of points, relative to the proposed one.
+    pub(crate) point_size: f64,
+    /// Selected tool.
+    pub(crate) tool: Tool,
+    /// Whether the controls of the tools are shown.
+    pub(crate) has_tools: bool,
+    /// Selected points.
+    pub(crate) selection: Selection,
+    /// Box while one of its sides is dragged.
+    pub(crate) draft: Option<CropBox>,
+    /// View through a camera.
+    pub(crate) through: Option<Through>,
     /// Selected point.
     pub(crate) point: Option<usize>,
-    made: Option<Made>,
-    orbit: Option<Orbit>,
-    scene: Scene,
+    pub(super) made: Option<Made>,
+    pub(super) orbit: Option<Orbit>,
+    /// Length of a frustum.
+    pub(super) reach: f64,
+    pub(super) scene: Scene,
     /// Number of sparse points of the scene; dense ones follow.
-    num_shared: usize,
-    num_fixed_lines: usize,
+    pub(super) num_shared: usize,
+    pub(super) num_fixed_lines: usize,
     frame: Frame,
     texture: Option<TextureHandle>,
     /// Time until which it counts as moving, seconds.
     moves_until: f64,
-    drawn: Option<Drawn>,
+    pub(super) drawn: Option<Drawn>,
 }
 
 impl Default for CloudView {
@@ -83,9 +77,19 @@ impl Default for CloudView {
             photographs: true,
             sparse: true,
             surface: false,
+            dense: true,
+            cameras: true,
+            grid: true,
+            point_size: 1.0,
+            tool: Tool::Look,
+            has_tools: false,
+            selection: Selection::default(),
+            draft: None,
+            through: None,
             point: None,
             made: None,
             orbit: None,
+            reach: 1.0,
             scene: Scene::default(),
             num_shared: 0,
             num_fixed_lines: 0,
@@ -145,7 +149,12 @@ impl CloudView {
         );
         let mut orbit = self.orbit?;
         let now = ui.input(|input| input.time);
-        if steer(&mut orbit, ui, &response, size, pixels) {
+        // Without the controls of the tools, a drag turns the view.
+        let is_selecting = std::mem::take(&mut self.has_tools) && self.tool == Tool::Select;
+        if let Some(through) = &self.through {
+            through.focus(&mut orbit, size);
+        }
+        if steer(&mut orbit, ui, &response, size, pixels, is_selecting) {
             self.moves_until = now + REST_S;
         }
         let rest = (self.scene.points.len() > MAX_MOVING).then_some(self.moves_until - now);
@@ -160,6 +169,10 @@ impl CloudView {
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
             ui.painter_at(rect)
                 .image(texture.id(), rect, whole, egui::Color32::WHITE);
+        }
+        scale_bar(project, ui, rect, (&orbit, size));
+        if is_selecting {
+            self.lasso(project, ui, &response, rect, (&orbit, size));
         }
         if response.has_focus() {
             let stroke = egui::Stroke::new(2.0, look::color(ui, Role::Best));
@@ -207,90 +220,12 @@ impl CloudView {
     pub(crate) fn look_at_all(&mut self) {
         self.made = None;
         self.orbit = None;
+        self.through = None;
     }
 
-    fn make(&mut self, project: &Project, component: &Component, key: Key, theme: Theme) {
-        let made = Made {
-            key,
-            component: project.view().component,
-            coloring: self.coloring,
-            theme,
-            photographs: match self.photographs {
-                true => (project.taking_part().into_iter())
-                    .filter(|photo| project.shown(photo).is_some())
-                    .count(),
-                false => 0,
-            },
-            growing: (project.component().is_none()).then(|| component.num_registered()),
-            sparse: self.sparse || !has_dense(project),
-            surface: self.surface,
-            dense: dense_keys(project),
-            floor: project.floor(),
-        };
-        if self.made.as_ref() == Some(&made) {
-            return;
-        }
-        let same_place = self.made.as_ref().is_some_and(|before| {
-            (before.key, before.component, before.growing)
-                == (made.key, made.component, made.growing)
-                && before.floor == made.floor
-        });
-        // A growing reconstruction keeps its viewing direction.
-        let side = (self.made.as_ref())
-            .filter(|before| before.growing.is_some() && before.key == made.key)
-            .and(self.orbit);
-        self.scene.points.clear();
-        let shared = component.points.iter().filter(|_| made.sparse);
-        self.scene.points.extend(shared.map(|point| {
-            let color = match self.coloring {
-                Coloring::Photographs => point.color,
-                Coloring::Error => theme.scale(point.error_px / 2.0),
-                Coloring::Track => theme.scale(point.track.len() as f64 / 8.0),
-            };
-            (point.position.map(|x| x as f32), color)
-        }));
-        self.num_shared = self.scene.points.len();
-        add_dense(&mut self.scene, project, self.surface);
-        let mut sum = nalgebra::Vector3::zeros();
-        for camera in component.cameras.iter().flatten() {
-            let [_, _, cu, cv] = camera.intrinsics;
-            let down = camera.ray([cu, cv + 1000.0]) - camera.ray([cu, cv]);
-            sum += down.normalize();
-        }
-        if let Some(floor) = made.floor {
-            sum = -floor.up;
-        }
-        if !same_place || self.orbit.is_none() {
-            let mut orbit = Orbit::around(&self.scene, sum.into());
-            frame(&mut orbit, component, side);
-            self.orbit = Some(orbit);
-            self.point = None;
-        }
-        let reach = self.orbit.map_or(1.0, |orbit| orbit.distance) * 0.06;
-        let color = theme.color(Role::Series(1));
-        self.scene.lines.clear();
-        self.scene.pictures.clear();
-        for (photo, camera) in project.taking_part().iter().zip(&component.cameras) {
-            if let (Some(camera), Some(size)) = (camera, project.camera(photo)) {
-                frustum(
-                    &mut self.scene.lines,
-                    camera,
-                    (size.width, size.height),
-                    reach,
-                    color,
-                );
-                if self.photographs
-                    && let Some(pixels) = project.shown(photo)
-                {
-                    let size = (size.width, size.height);
-                    let picture = standing(camera, size, reach, &pixels.small);
-                    self.scene.pictures.push(picture);
-                }
-            }
-        }
-        self.num_fixed_lines = self.scene.lines.len();
-        self.made = Some(made);
-        self.drawn = None;
+    /// Whether sparse points are shown: always, if there are no others.
+    pub(super) fn shows_sparse(&self, project: &Project) -> bool {
+        self.sparse || !has_dense(project)
     }
 
     fn draw(
@@ -301,10 +236,13 @@ impl CloudView {
         size: (usize, usize),
         coarse: bool,
     ) {
+        let crop = self.draft.or(project.crop().copied());
         let now = Drawn {
             orbit,
             size,
             point: self.point,
+            crop,
+            point_size: self.point_size,
             coarse,
         };
         if self.drawn.as_ref() == Some(&now) {
@@ -320,14 +258,18 @@ impl CloudView {
                 look::theme(ui).color(Role::Grip),
             );
         }
+        if let Some(crop) = crop {
+            let color = look::theme(ui).color(Role::Grip);
+            edges(&mut self.scene.lines, &crop, color);
+        }
         let every = match coarse {
             true => self.scene.points.len().div_ceil(MAX_MOVING),
             false => 1,
         };
         let by = if coarse { coarseness(size) } else { 1 };
         let size = ((size.0 / by).max(1), (size.1 / by).max(1));
-        let point_px =
-            size_of(self.scene.points.len()) * f64::from(ui.ctx().pixels_per_point()) / by as f64;
+        let point_px = size_of(self.scene.points.len()) * self.point_size;
+        let point_px = point_px * f64::from(ui.ctx().pixels_per_point()) / by as f64;
         let look = Look {
             point_px,
             every,

@@ -1,5 +1,6 @@
 //! Additions to the points: cameras, viewing rays and observations of a point, dense points.
 
+use super::shade::Shade;
 use crate::project::{Anchor, DensePixel, Key, Project};
 use crate::tasks::{CameraFound, Component, Dense, DenseCloud, FeaturesOf, Thumbnail};
 use epipole_canvas::cloud::{Line, Picture, Scene};
@@ -108,7 +109,7 @@ pub(super) fn dense_keys(project: &Project) -> Vec<Key> {
 }
 
 /// Whether the surface of all views is shown: it is selected and has triangles.
-fn shows_surface(project: &Project, is_wanted: bool) -> bool {
+pub(super) fn shows_surface(project: &Project, is_wanted: bool) -> bool {
     let cloud = project.all_views().filter(|_| is_wanted);
     cloud.is_some_and(|(_, cloud)| !cloud.triangles.is_empty())
 }
@@ -168,29 +169,41 @@ pub(crate) fn dense_anchor(project: &Project, index: usize, as_surface: bool) ->
     })
 }
 
-/// Adds dense points of all views and of pairs after the sparse points.
+/// Adds dense points of all views and of pairs after the sparse points. Points that are not kept
+/// have no place, so that indices stay.
 ///
 /// * `as_surface`: whether to add the surface of all views in place of their points
-pub(crate) fn add_dense(scene: &mut Scene, project: &Project, as_surface: bool) {
-    let plain = |(place, color): ([f64; 3], [u8; 3])| (place.map(|x| x as f32), color);
+pub(super) fn add_dense(scene: &mut Scene, project: &Project, as_surface: bool, shade: &Shade<'_>) {
     let as_surface = shows_surface(project, as_surface);
     let points = &mut scene.points;
-    if let Some((_, cloud, every)) = shown_cloud(project).filter(|_| !as_surface) {
+    if let Some((key, cloud, every)) = shown_cloud(project).filter(|_| !as_surface) {
         points.reserve_exact(cloud.len() / every + 1);
-        let fused = cloud.points(every);
-        points.extend(fused.map(|point| plain((point.position, point.color))));
+        let shaded = shade.of_cloud(key);
+        let fused = (0..).step_by(every).zip(cloud.points(every));
+        points.extend(fused.map(|(index, point)| shaded(index, point.position, point.color)));
     }
     let (all, every) = shown_pixels(project);
     // Reserved at once: growth by doubling would waste up to half of the memory.
     points.reserve_exact((all / f64::from(every * every)) as usize + 1000);
-    for (.., pair) in project.dense_pairs() {
-        points.extend(pair.points(every).map(plain));
+    for (key, .., pair) in project.dense_pairs() {
+        let shaded = shade.of_cloud(key);
+        let pixels = pair.deep_pixels(every).zip(pair.points(every));
+        points.extend(pixels.map(|((at, _), (place, color))| shaded(pair.index(at), place, color)));
     }
     scene.first_vertex = points.len();
-    scene.triangles.clear();
-    if let Some((_, cloud)) = project.all_views().filter(|_| as_surface) {
+    if let Some((key, cloud)) = project.all_views().filter(|_| as_surface) {
+        let shaded = shade.of_cloud(key);
         points.reserve_exact(cloud.vertices().len());
-        points.extend((cloud.vertices()).map(|vertex| plain((vertex.position, vertex.color))));
-        scene.triangles.extend(cloud.triangles());
+        let vertices = (cloud.len() as u32..).zip(cloud.vertices());
+        points.extend(vertices.map(|(index, v)| shaded(index, v.position, v.color)));
+        let vertices = &points[scene.first_vertex..];
+        let is_kept = |vertex: &u32| {
+            let vertex = vertices.get(*vertex as usize);
+            vertex.is_some_and(|(place, _)| place[0].is_finite())
+        };
+        let triangles = cloud.triangles();
+        scene
+            .triangles
+            .extend(triangles.filter(|triangle| triangle.iter().all(is_kept)));
     }
 }

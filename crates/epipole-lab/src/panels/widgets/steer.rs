@@ -1,16 +1,20 @@
 //! Viewpoint of the point cloud: the initial one, and changes by pointer, touch and keys.
 
+use crate::session::Kept;
 use crate::tasks::{CameraFound, Component};
 use egui::{Key as KeyName, Response, Ui, Vec2};
 use epipole_canvas::cloud::Orbit;
 
 /// Rotates, pans and zooms. True while something moves.
+///
+/// * `is_selecting`: whether a drag of the first button selects instead
 pub(crate) fn steer(
     orbit: &mut Orbit,
     ui: &Ui,
     response: &Response,
     size: (usize, usize),
     pixels: f32,
+    is_selecting: bool,
 ) -> bool {
     let before = *orbit;
     let drag = response.drag_delta();
@@ -26,7 +30,7 @@ pub(crate) fn steer(
         if shift || second {
             let moved = drag * pixels;
             orbit.pan(f64::from(moved.x), f64::from(moved.y), size);
-        } else {
+        } else if !is_selecting {
             orbit.rotate(f64::from(drag.x) * -0.008, f64::from(drag.y) * -0.008);
         }
     }
@@ -64,9 +68,14 @@ pub(crate) fn steer(
     *orbit != before
 }
 
-/// Frames all cameras, and the points except for the outermost, in the direction of another view;
+/// Frames all cameras, and the kept points except for the outermost, in the direction of another view;
 /// without one, from behind the cameras and a little to the side.
-pub(crate) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit>) {
+pub(crate) fn frame(
+    orbit: &mut Orbit,
+    component: &Component,
+    kept: &Kept<'_>,
+    side: Option<Orbit>,
+) {
     const ASIDE_RAD: f64 = 0.35;
     let cameras = || component.cameras.iter().flatten();
     let ahead = |camera: &CameraFound| {
@@ -83,10 +92,14 @@ pub(crate) fn frame(orbit: &mut Orbit, component: &Component, side: Option<Orbit
     }
     let middle = orbit.middle;
     let away = |place: &[f64; 3]| (nalgebra::Point3::from(*place) - middle).norm_squared();
-    let all = component.points.iter().map(|point| point.position);
+    let all = component
+        .points
+        .iter()
+        .filter(|point| kept.has_point(point));
+    let all = all.map(|point| point.position);
     let mut by_distance: Vec<(f64, [f64; 3])> = all.map(|place| (away(&place), place)).collect();
     by_distance.retain(|(away, _)| away.is_finite());
-    let num_near = by_distance.len() * 9 / 10;
+    let num_near = by_distance.len() * 19 / 20;
     if num_near < by_distance.len() {
         by_distance.select_nth_unstable_by(num_near, |(a, _), (b, _)| a.total_cmp(b));
         by_distance.truncate(num_near);

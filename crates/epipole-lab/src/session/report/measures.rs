@@ -39,6 +39,9 @@ impl Project {
     fn measured(&self, index: usize) -> Option<Measured> {
         let measure = self.document.measures.get(index)?;
         let [first, second] = &measure.ends;
+        if !(self.is_kept(first) && self.is_kept(second)) {
+            return None;
+        }
         let length = match self.scale() {
             Some(_) => self.length_in_meters(index)?,
             None => self.length_in_units(measure)?,
@@ -57,6 +60,9 @@ impl Project {
     }
 
     fn measured_shape(&self, index: usize, shape: &Shape) -> Option<MeasuredShape> {
+        if !shape.points.iter().all(|point| self.is_kept(point)) {
+            return None;
+        }
         let found = self.shape_value(shape).ok()?;
         let places = shape.points.iter().map(|point| self.anchored(point));
         Some(MeasuredShape {

@@ -4,6 +4,7 @@
 
 mod all_views;
 mod coming;
+mod editing;
 mod guided;
 mod keeping;
 mod measuring;
