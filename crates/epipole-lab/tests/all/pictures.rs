@@ -117,10 +117,12 @@ fn tools(bench: &mut Bench<'_>, raster: &Raster, name: &str, width: f32) {
         let is_word = |node: &egui_kittest::Node<'_>| {
             node.accesskit_node().role() == egui::accesskit::Role::Label
         };
-        let mut named = bench.get_all_by_label(label);
-        let button = named.find(|node| !is_word(node)).unwrap();
-        button.scroll_to_me();
-        button.click_accesskit();
+        {
+            let mut named = bench.get_all_by_label(label);
+            let button = named.find(|node| !is_word(node)).unwrap();
+            button.scroll_to_me();
+            button.click_accesskit();
+        }
         rest(bench);
     };
     press(bench, "box");

@@ -103,7 +103,7 @@ impl<'a> GrownMarks<'a> {
     /// column and row are; so are the quadrants at tags.
     fn is_dark_between_steps(&self, mark: usize) -> bool {
         let columns = self.board.columns();
-        (mark % columns + mark / columns) % 2 == 0
+        (mark % columns + mark / columns).is_multiple_of(2)
     }
 
     /// Predicts the pixel of a mark, and that of a step of one square along the board's axes there;

@@ -30,6 +30,7 @@ mod odometry;
 mod odometry_options;
 mod odometry_result;
 mod options;
+mod pair_selection;
 mod photos;
 mod pose_graph;
 mod reconstruction;

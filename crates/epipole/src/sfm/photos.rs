@@ -2,7 +2,7 @@
 
 use super::bundle::PositionPrior;
 use super::incremental::{SfmResult, reconstruct};
-use super::options::{OF_PHOTOGRAPHS, SfmInput, SfmOptions, check_count};
+use super::options::{OF_IMAGES, SfmInput, SfmOptions, check_count};
 use super::pair_selection::select_pairs;
 use super::reconstruction::SfmImage;
 use super::tracks::PairMatches;
@@ -190,15 +190,15 @@ pub fn match_photos(
 ) -> Result<(Vec<SfmImage>, Vec<PairMatches>)> {
     if photos.len() < 2 {
         return Err(Error::TooFew {
-            what: OF_PHOTOGRAPHS,
+            what: OF_IMAGES,
             needed: 2,
             got: photos.len(),
         });
     }
-    let share = |done: usize| DETECTED * done as f32 / photos.len() as f32;
+    let fraction = |done: usize| DETECTED * done as f32 / photos.len() as f32;
     let mut features = Vec::new();
     for (index, photo) in photos.iter().enumerate() {
-        let mut part = Part::new(monitor, share(index), share(index + 1));
+        let mut part = Part::new(monitor, fraction(index), fraction(index + 1));
         features.push(photo_features(photo, options, &mut part)?);
     }
     let mut part = Part::new(monitor, DETECTED, 1.0);

@@ -42,7 +42,7 @@ pub(super) fn picture(export: &Export, model: &Reconstruction) -> Option<RgbImag
     // The sparse points alone determine the view, as they have fewer outliers.
     let mut orbit = Orbit::around(&scene, down.into());
     orbit.look_along(axis(Vector3::z()).into());
-    orbit.turn(ASIDE_RAD, 0.0);
+    orbit.rotate(ASIDE_RAD, 0.0);
     orbit.fit(&nearest(&scene, &orbit));
     let frame = file_from_world(export);
     if let Some(cloud) = &export.all_views {
