@@ -66,7 +66,9 @@ pub(crate) fn table_points(project: &Project) -> Vec<TruePoint> {
 /// farthest from it on either side.
 pub(crate) fn corners(points: &[TruePoint]) -> [TruePoint; 4] {
     let length = |(a, b): &(TruePoint, TruePoint)| (a.truth - b.truth).norm();
-    let pairs = points.iter().flat_map(|a| points.iter().map(|b| (*a, *b)));
+    let pairs = points
+        .iter()
+        .flat_map(|a| points.iter().map(move |b| (*a, *b)));
     let (a, c) = pairs
         .max_by(|p, q| length(p).total_cmp(&length(q)))
         .unwrap();
