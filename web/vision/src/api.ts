@@ -1271,11 +1271,13 @@ export interface PhotoOptions {
    * true }
    */
   matching?: MatchOptions;
-  /**
-   * Number of following images to match each one with; 0 for all. For frames in order of time. @default
-   * 0
-   */
+  /** Number of following images to match each one with, for frames in order of time. 0. @default 0 */
   neighbors?: number;
+  /**
+   * Number of images to match each one with that look most like it; 0 for none, and all pairs if
+   * `neighbors` is 0 as well. By default 40 if `neighbors` is 0, else none. @default null
+   */
+  similar?: number | null;
   /**
    * Sort the matches of a pair by ambiguity, as PROSAC needs, rather than by the keypoints of the first
    * image. False. @default false

@@ -244,7 +244,7 @@ fn bad_sets_of_images_are_rejected() {
     run(&[&good, &out], &board, 1, "show more of it");
     run(&[&good, &other], &["--board", "6x5"], 1, "another size");
     run(&[&good, &other], &["--board", "6x5"], 1, "once more");
-    run(&[&good, &small], &board, 1, "must have one size");
+    run(&[&good, &small], &board, 1, "must have the same size");
     run(&[&good, &other], &["--board", "7by5"], 2, "is not like 9x6");
     run(&[&good, &other], &["--board", "1x5"], 2, "columns");
     run(

@@ -107,7 +107,7 @@ fn disparities_are_those_of_the_scene() {
     for (options, expected) in [
         (
             &["--method", "bm", "--paths", "4"][..],
-            "--paths is of --method sgm",
+            "--paths belongs to --method sgm",
         ),
         (
             &["--window-px", "9"],

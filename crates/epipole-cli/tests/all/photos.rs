@@ -243,7 +243,7 @@ fn photos_are_written_as_the_model_describes_them() {
     };
     let before = std::fs::read(&inputs[0]).unwrap();
     let smaller = ["--max-megapixels", "0.03"];
-    refused(&sfm(&inputs, &out, &smaller), "would write over it");
+    refused(&sfm(&inputs, &out, &smaller), "would overwrite it");
     assert_eq!(std::fs::read(&inputs[0]).unwrap(), before);
     let beside = folder.file("0.jpg");
     std::fs::copy(&inputs[0], &beside).unwrap();

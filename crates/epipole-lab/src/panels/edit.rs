@@ -2,8 +2,8 @@
 
 use super::screen::Screen;
 use super::widgets::controls::{Change, change_of};
-use super::widgets::lasso::Tool;
 use super::widgets::look;
+use super::widgets::selection::Tool;
 use crate::project::{CropBox, PointSet, Project};
 use crate::session::{Event, count};
 use egui::{Button, DragValue, Key, Ui};

@@ -3,7 +3,7 @@
 use super::screen::{Action, Panel, Screen};
 use super::widgets::cloud::CloudView;
 use super::widgets::controls::{self, Change};
-use super::widgets::scene::Coloring;
+use super::widgets::scene_inputs::Coloring;
 use super::widgets::{look, observations, verdict};
 use super::{edit, view};
 use crate::project::{Project, RefineFocal, Step};

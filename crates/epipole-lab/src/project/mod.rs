@@ -1,6 +1,7 @@
 //! The open project as data: photographs, settings, view, and the outputs of tasks. No screen, no
 //! clock.
 
+mod anchor;
 mod board_options;
 mod bytes;
 mod cache;
@@ -21,15 +22,14 @@ mod shape;
 mod state;
 mod step;
 
+pub use anchor::{Anchor, CloudPoint, DensePixel, PhotoId};
 pub use board_options::{BoardOptions, BoardPattern, CalibrationOptions, LensCamera, LensModel};
 pub use bytes::Blob;
 pub(crate) use bytes::to_bytes;
 pub use computed::{COMPUTED_BY, Computed};
 pub use crop::CropBox;
 pub(crate) use document::content_of;
-pub use document::{
-    Anchor, CloudPoint, DensePixel, Document, InputPhoto, Measure, PhotoId, Source, pairs,
-};
+pub use document::{Document, InputPhoto, Measure, Source, pairs};
 pub use key::Key;
 pub use known_poses::{KnownImage, KnownPoses, Pose, file_stem};
 pub use mask::Mask;

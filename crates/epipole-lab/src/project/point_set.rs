@@ -1,6 +1,6 @@
 //! Sets of points of the model.
 
-use super::document::PhotoId;
+use super::anchor::PhotoId;
 use super::mask::Mask;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! Numbers of the current reconstruction and of the one before.
 
-use super::document::PhotoId;
+use super::anchor::PhotoId;
 use super::key::Key;
 
 /// Numbers of a reconstruction.

@@ -1,8 +1,9 @@
 //! Saved form of a project, without its photographs.
 
+use super::anchor::{Anchor, PhotoId};
 use super::board_options::LensCamera;
 use super::crop::CropBox;
-use super::document::{Anchor, Measure, PhotoId};
+use super::document::Measure;
 use super::known_poses::KnownPoses;
 use super::point_set::PointSet;
 use super::sample::Sample;

@@ -1,6 +1,6 @@
 //! Measures besides lengths, and points with known coordinates.
 
-use super::document::{Anchor, PhotoId};
+use super::anchor::{Anchor, PhotoId};
 use serde::{Deserialize, Serialize};
 
 /// Quantity of a measured figure.

@@ -1,8 +1,9 @@
 //! The open project.
 
+use super::anchor::PhotoId;
 use super::bytes::Blob;
 use super::cache::Cache;
-use super::document::{Document, PhotoId};
+use super::document::Document;
 use super::key::Key;
 use super::results::Results;
 use super::shape::ShapeValue;

@@ -27,7 +27,7 @@ mod update;
 #[cfg(feature = "panels")]
 mod videos;
 
-pub use edit::{Kept, Layers, Members};
+pub use edit::{Layers, Members, Remaining};
 pub use event::Event;
 #[cfg(feature = "panels")]
 pub use host::{Host, HostEvent, JobId, Report, Stored};

@@ -136,8 +136,13 @@ fn tools(bench: &mut Bench<'_>, raster: &Raster, name: &str, width: f32) {
     press(bench, "Undo");
     press(bench, "Look through");
     press(bench, "table-4.png");
+    // Controls that are scrolled under the steps would cover them.
+    bench.get_by_label("Measure a length").scroll_to_me();
+    rest(bench);
     check(bench, raster, &format!("{name}-through"), width);
     press(bench, "Return to the view before");
+    bench.get_by_label("Measure a length").scroll_to_me();
+    rest(bench);
 }
 
 fn check(bench: &Bench<'_>, raster: &Raster, name: &str, width: f32) {

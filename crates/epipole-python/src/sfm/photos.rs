@@ -107,7 +107,7 @@ pub(super) fn photo_features(
     Ok(PhotoFeatures(features))
 }
 
-/// Matches pairs of photos: of some dozens all, of more those that look alike or are close in order.
+/// Matches pairs of photos: of some dozens all, of more similar ones or those close in order.
 ///
 /// Parameters
 /// ----------

@@ -188,8 +188,8 @@ impl Estimator for AbsolutePoseFocalEstimator {
 /// * `options`: [`RansacOptions::max_error_px`] bounds the reprojection error of an inlier
 ///
 /// The points may lie on a plane, unless it faces the camera: then every focal length fits nearly
-/// as well, at a suitable distance, and [`AbsolutePoseWithFocal::constrains_focal`] is false. The same
-/// holds for points with nearly equal depths.
+/// as well, at a suitable distance, and [`AbsolutePoseWithFocal::constrains_focal`] is false. The
+/// same holds for points with nearly equal depths.
 ///
 /// # Errors
 /// [`Error::SizeMismatch`] for lists of different length, [`Error::NotFinite`] for NaN and for a

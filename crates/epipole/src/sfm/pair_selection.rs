@@ -1,8 +1,7 @@
 //! Choice of the pairs of images to match.
 
-use super::photos::{PhotoFeatures, PhotoOptions};
 use crate::Result;
-use crate::feature::global_descriptors;
+use crate::feature::{Descriptors, global_descriptors};
 use crate::progress::Monitor;
 use std::collections::BTreeSet;
 
@@ -11,15 +10,19 @@ const MOST_SIMILAR: usize = 40;
 
 /// Returns the pairs to match, the earlier image first, in order.
 ///
+/// * `descriptors`: those of each image
+/// * `neighbors`, `similar`: as in [`PhotoOptions`](super::PhotoOptions)
+///
 /// # Errors
 /// As [`nearest_two`](crate::feature::nearest_two).
 pub(super) fn select_pairs(
-    features: &[PhotoFeatures],
-    options: &PhotoOptions,
+    descriptors: &[&Descriptors],
+    neighbors: usize,
+    similar: Option<usize>,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<(usize, usize)>> {
-    let count = features.len();
-    let similar = match (options.similar, options.neighbors) {
+    let count = descriptors.len();
+    let similar = match (similar, neighbors) {
         (None, 0) => MOST_SIMILAR,
         (None, _) => 0,
         (Some(0), 0) => count,
@@ -28,9 +31,9 @@ pub(super) fn select_pairs(
     if similar.saturating_add(1) >= count {
         return Ok(close_in_order(count, count).collect());
     }
-    let mut pairs: BTreeSet<_> = close_in_order(count, options.neighbors).collect();
+    let mut pairs: BTreeSet<_> = close_in_order(count, neighbors).collect();
     if similar > 0 {
-        pairs.extend(most_similar(features, similar, monitor)?);
+        pairs.extend(most_similar(descriptors, similar, monitor)?);
     }
     Ok(pairs.into_iter().collect())
 }
@@ -42,12 +45,11 @@ fn close_in_order(count: usize, reach: usize) -> impl Iterator<Item = (usize, us
 
 /// Returns the pairs of each image with those that look most like it.
 fn most_similar(
-    features: &[PhotoFeatures],
+    descriptors: &[&Descriptors],
     per_image: usize,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<(usize, usize)>> {
-    let descriptors: Vec<_> = features.iter().map(|image| &image.descriptors).collect();
-    let vectors = global_descriptors(&descriptors, monitor)?;
+    let vectors = global_descriptors(descriptors, monitor)?;
     let similarity = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f32>();
     let mut pairs = Vec::with_capacity(vectors.len() * per_image);
     for (image, vector) in vectors.iter().enumerate() {
@@ -64,13 +66,11 @@ fn most_similar(
 
 #[cfg(test)]
 mod tests {
-    use super::super::SfmImage;
     use super::*;
-    use crate::feature::Descriptors;
     use crate::math::random::Random;
 
     /// Images of `scenes`, whose descriptors repeat with noise within a scene.
-    fn images(scenes: &[u64]) -> Vec<PhotoFeatures> {
+    fn images(scenes: &[u64]) -> Vec<Descriptors> {
         let image = |(seed, scene): (usize, &u64)| {
             let mut random = Random::new(seed as u64);
             let mut values = Vec::new();
@@ -78,20 +78,16 @@ mod tests {
                 let mut object = Random::new(1000 * scene + random.below(50) as u64);
                 values.extend((0..8).map(|_| (object.normal() + 0.1 * random.normal()) as f32));
             }
-            PhotoFeatures {
-                image: SfmImage::default(),
-                descriptors: Descriptors::from_floats(8, values).unwrap(),
-                keypoints: Vec::new(),
-            }
+            Descriptors::from_floats(8, values).unwrap()
         };
         scenes.iter().enumerate().map(image).collect()
     }
 
     fn pairs(count: usize, neighbors: usize, similar: Option<usize>) -> Vec<(usize, usize)> {
         let scenes: Vec<u64> = (0..count as u64).map(|k| k % 3).collect();
-        let mut options = PhotoOptions::default().with_neighbors(neighbors);
-        options.similar = similar;
-        select_pairs(&images(&scenes), &options, &mut ()).unwrap()
+        let images = images(&scenes);
+        let images: Vec<&Descriptors> = images.iter().collect();
+        select_pairs(&images, neighbors, similar, &mut ()).unwrap()
     }
 
     #[test]

@@ -99,8 +99,8 @@ pub fn photo_features(
     })
 }
 
-/// Matches pairs of images: of some dozens all, of more those that look alike or are close in order,
-/// as `options` say.
+/// Matches pairs of images: of some dozens all, of more those that look alike or are close in
+/// order, as `options` say.
 ///
 /// * `monitor`: the only stage is [`Stage::FeatureMatching`]
 ///
@@ -114,7 +114,9 @@ pub fn match_features(
     options: &PhotoOptions,
     monitor: &mut dyn Monitor,
 ) -> Result<Vec<PairMatches>> {
-    let selected = select_pairs(features, options, &mut Part::new(monitor, 0.0, SELECTED))?;
+    let descriptors: Vec<_> = features.iter().map(|image| &image.descriptors).collect();
+    let mut part = Part::new(monitor, 0.0, SELECTED);
+    let selected = select_pairs(&descriptors, options.neighbors, options.similar, &mut part)?;
     let progress = |done: usize| SELECTED + (1.0 - SELECTED) * done as f32 / selected.len() as f32;
     let mut pairs = Vec::with_capacity(selected.len());
     for &(image1, image2) in &selected {

@@ -28,8 +28,8 @@ pub struct PairMatches {
 ///
 /// * `num_keypoints`: number of keypoints of each image
 /// * `pairs`: geometrically verified matches. Pairs with many matches take precedence: a match that
-///   would give a track two keypoints of one image is dropped, so that a wrong match does not corrupt
-///   the two tracks that it touches.
+///   would give a track two keypoints of one image is dropped, so that a wrong match does not
+///   corrupt the two tracks that it touches.
 ///
 /// Tracks are sorted by their first element; keypoints without a match are in no track.
 ///

@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Number of concentration steps on the better-fitting half of the matches.
 const ROUNDS: usize = 10;
 
-/// Body of [`find_explaining_rotation`](super::find_explaining_rotation) for cameras with any lens; errors
-/// are in image 2.
+/// Body of [`find_explaining_rotation`](super::find_explaining_rotation) for cameras with any lens;
+/// errors are in image 2.
 ///
 /// * `inliers`: observations of both cameras, with few outliers
 ///

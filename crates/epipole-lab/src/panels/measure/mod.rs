@@ -116,7 +116,7 @@ impl Panel for Measuring {
             ui,
             painter: ui.painter_at(rect),
             place: |anchor: &Anchor| {
-                let kept = project.is_kept(anchor).then_some(anchor)?;
+                let kept = project.is_remaining(anchor).then_some(anchor)?;
                 let place = project.anchored(kept)?;
                 screen.views.cloud.place_of(place, rect)
             },

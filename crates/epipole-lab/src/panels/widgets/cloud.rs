@@ -1,13 +1,13 @@
 //! Cameras and points in 3D: rotation, panning and zoom by mouse, touch and keys.
 
+use super::camera_view::Through;
 use super::ground::{edges, scale_bar};
-use super::lasso::{Selection, Tool};
 use super::look;
 use super::marks::{has_dense, rays};
 use super::pick::{Click, crosshair, pick};
-use super::scene::{Coloring, Made};
+use super::scene_inputs::{Coloring, Made};
+use super::selection::{Selection, Tool};
 use super::steer::steer;
-use super::through::Through;
 use crate::project::{Blob, CropBox, Project};
 use crate::tasks::{Query, ReconstructionOfAll};
 use egui::{ColorImage, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2};

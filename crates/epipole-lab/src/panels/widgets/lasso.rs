@@ -3,62 +3,14 @@
 use super::cloud::CloudView;
 use super::look;
 use super::marks::shows_surface;
-use crate::project::{PointSet, Project};
+use crate::project::Project;
 use crate::session::Layers;
 use egui::{PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 use epipole_canvas::cloud::Orbit;
 use epipole_canvas::theme::Role;
 
-/// Tool of the 3D view.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Tool {
-    /// Looking around.
-    #[default]
-    Look,
-    /// The box that limits the model.
-    Box,
-    /// Selection of points: a drag draws a line around them.
-    Select,
-}
-
 /// Minimum distance between corners of the line, points.
 const STEP: f32 = 3.0;
-
-/// Selected points, and the line that is being drawn.
-pub(crate) struct Selection {
-    pub(crate) points: PointSet,
-    /// Number of points.
-    pub(crate) count: usize,
-    /// Rules for sparse points: fewer images than this; larger errors than this, pixels.
-    pub(crate) min_images: usize,
-    pub(crate) max_error_px: f64,
-    line: Vec<Pos2>,
-}
-
-impl Default for Selection {
-    fn default() -> Self {
-        Self {
-            points: PointSet::default(),
-            count: 0,
-            min_images: 3,
-            max_error_px: 1.0,
-            line: Vec::new(),
-        }
-    }
-}
-
-impl Selection {
-    /// Replaces the selection.
-    pub(crate) fn set(&mut self, project: &Project, points: PointSet) {
-        self.count = project.num_in(&points);
-        self.points = points;
-    }
-
-    /// Adds points.
-    pub(crate) fn add(&mut self, project: &Project, points: &PointSet) {
-        self.set(project, self.points.with(points));
-    }
-}
 
 impl CloudView {
     /// Returns the layers that are shown.

@@ -1,16 +1,19 @@
 //! Widgets that several panels use.
 
+mod camera_view;
 pub(crate) mod cloud;
 pub(crate) mod controls;
 pub(crate) mod empty;
 mod ground;
-pub(crate) mod lasso;
+mod lasso;
 pub(crate) mod look;
 mod marks;
 pub(crate) mod menu;
 pub(crate) mod photo;
 pub(crate) mod pick;
-pub(crate) mod scene;
+mod scene;
+pub(crate) mod scene_inputs;
+pub(crate) mod selection;
 mod shade;
 mod steer;
 pub(crate) mod strips;

@@ -3,53 +3,16 @@
 use super::cloud::CloudView;
 use super::ground::grid;
 use super::marks::{add_dense, dense_keys, frustum, standing};
+use super::scene_inputs::{Coloring, Made};
 use super::shade::Shade;
 use super::steer::frame;
-use crate::project::{CropBox, Key, PhotoId, PointSet, Project};
-use crate::session::{Floor, Layers};
+use crate::project::{Key, Project};
 use crate::tasks::Component;
 use epipole_canvas::cloud::Orbit;
 use epipole_canvas::theme::{Role, Theme};
 
 /// Length of a frustum, relative to the distance of the first view.
 const REACH: f64 = 0.06;
-
-/// Meaning of a point's color.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) enum Coloring {
-    /// Colors of the photographs.
-    #[default]
-    Photographs,
-    /// Reprojection error.
-    Error,
-    /// Track length: number of photographs that see it.
-    Track,
-}
-
-/// Inputs of the current scene; it is rebuilt when they change.
-#[derive(PartialEq)]
-pub(super) struct Made {
-    key: Key,
-    component: usize,
-    coloring: Coloring,
-    theme: Theme,
-    /// Number of photographs shown in their frusta.
-    photographs: usize,
-    layers: Layers,
-    /// Whether cameras are shown.
-    cameras: bool,
-    /// Meters per unit, if the grid is shown.
-    grid: Option<f64>,
-    /// Photograph through whose camera the view looks.
-    through: Option<PhotoId>,
-    crop: Option<CropBox>,
-    deleted: PointSet,
-    selected: PointSet,
-    /// Number of cameras so far, during a reconstruction.
-    growing: Option<usize>,
-    dense: Vec<Key>,
-    floor: Option<Floor>,
-}
 
 impl CloudView {
     pub(super) fn make(
@@ -98,7 +61,7 @@ impl CloudView {
         self.scene.points.clear();
         self.scene.triangles.clear();
         let shade = Shade {
-            kept: project.kept(),
+            kept: project.remaining(),
             selected: project.members(&self.selection.points),
             color: theme.color(Role::Grip),
         };

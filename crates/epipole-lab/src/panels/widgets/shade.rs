@@ -2,7 +2,7 @@
 //! place, and selected ones a color of their own.
 
 use crate::project::Key;
-use crate::session::{Kept, Members};
+use crate::session::{Members, Remaining};
 use crate::tasks::PointFound;
 
 /// Position and color of a point of the scene.
@@ -10,7 +10,7 @@ type Shown = ([f32; 3], [u8; 3]);
 
 /// Points that are kept, and those that are selected.
 pub(super) struct Shade<'a> {
-    pub(super) kept: Kept<'a>,
+    pub(super) kept: Remaining<'a>,
     pub(super) selected: Members<'a>,
     /// Color of selected points.
     pub(super) color: [u8; 3],

@@ -1,6 +1,6 @@
 //! Viewpoint of the point cloud: the initial one, and changes by pointer, touch and keys.
 
-use crate::session::Kept;
+use crate::session::Remaining;
 use crate::tasks::{CameraFound, Component};
 use egui::{Key as KeyName, Response, Ui, Vec2};
 use epipole_canvas::cloud::Orbit;
@@ -68,12 +68,12 @@ pub(crate) fn steer(
     *orbit != before
 }
 
-/// Frames all cameras, and the kept points except for the outermost, in the direction of another view;
-/// without one, from behind the cameras and a little to the side.
+/// Frames all cameras, and the remaining points except for the outermost, in the direction of
+/// another view; without one, from behind the cameras and a little to the side.
 pub(crate) fn frame(
     orbit: &mut Orbit,
     component: &Component,
-    kept: &Kept<'_>,
+    kept: &Remaining<'_>,
     side: Option<Orbit>,
 ) {
     const ASIDE_RAD: f64 = 0.35;

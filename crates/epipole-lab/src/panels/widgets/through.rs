@@ -1,28 +1,9 @@
 //! Look through a registered camera.
 
+use super::camera_view::Through;
 use super::cloud::CloudView;
 use crate::project::{PhotoId, Project};
-use epipole_canvas::cloud::Orbit;
 use nalgebra::{Point3, Rotation3};
-
-/// View through a camera.
-pub(crate) struct Through {
-    /// Its photograph.
-    pub(crate) photo: PhotoId,
-    /// View to return to.
-    before: Orbit,
-    /// Focal lengths, relative to the width and the height of the photograph.
-    focals: [f64; 2],
-}
-
-impl Through {
-    /// Sets the focal length with which the photograph fills a picture of this size.
-    pub(super) fn focus(&self, orbit: &mut Orbit, (width, height): (usize, usize)) {
-        let [fu, fv] = self.focals;
-        let (width, height) = (width.max(1) as f64, height.max(1) as f64);
-        orbit.focal = (width * fu).min(height * fv) / width.min(height);
-    }
-}
 
 impl CloudView {
     /// Looks through the camera of a photograph; the center of the orbit is at the median depth of
@@ -39,7 +20,7 @@ impl CloudView {
         let (Some(camera), Some(size)) = (camera, size) else {
             return;
         };
-        let kept = project.kept();
+        let kept = project.remaining();
         let points = component
             .points
             .iter()

@@ -47,14 +47,17 @@ impl Project {
 
     /// Returns the positions of all points that are not deleted, of dense clouds some.
     fn places(&self) -> Vec<Point3<f64>> {
-        let kept = self.not_deleted();
+        let remaining = self.not_deleted();
         let points = self
             .component()
             .map_or(&[][..], |component| &component.points);
-        let sparse = points.iter().filter(|point| kept.has_point(point));
+        let sparse = points.iter().filter(|point| remaining.has_point(point));
         let mut places: Vec<[f64; 3]> = sparse.map(|point| point.position).collect();
         if let Some((key, cloud)) = self.all_views() {
-            let (has, every) = (kept.of_cloud(key), cloud.len().div_ceil(MAX_DENSE).max(1));
+            let (has, every) = (
+                remaining.of_cloud(key),
+                cloud.len().div_ceil(MAX_DENSE).max(1),
+            );
             let points = (0..).step_by(every).zip(cloud.points(every));
             let points = points.map(|(index, point)| (index, point.position));
             places.extend(
@@ -64,7 +67,7 @@ impl Project {
             );
         }
         for (key, _, _, pair) in self.dense_pairs() {
-            let has = kept.of_cloud(key);
+            let has = remaining.of_cloud(key);
             let pixels = f64::from(pair.num_shown) * pair.density;
             let every = libm::ceil(libm::sqrt(pixels / MAX_DENSE as f64)).max(1.0) as u32;
             let points = pair.places(every).filter(|(n, place)| has(*n, *place));

@@ -4,19 +4,23 @@ use crate::project::{Key, Project};
 use crate::tasks::{Component, Dense, DenseCloud, ImagePoints, Reconstructed};
 
 impl Project {
-    /// Returns the reconstruction with the kept points of the current component, and, if some are
-    /// left out, the component with all of them.
+    /// Returns the reconstruction with the remaining points of the current component, and, if some
+    /// are left out, the component with all of them.
     pub(in crate::session) fn kept_reconstruction(
         &self,
         found: &Reconstructed,
         images: &[ImagePoints],
     ) -> (Reconstructed, Option<Component>) {
-        let (place, kept) = (self.view.component, self.kept());
+        let (place, remaining) = (self.view.component, self.remaining());
         let mut found = found.clone();
-        let Some(component) = found.components.get_mut(place).filter(|_| !kept.is_all()) else {
+        let Some(component) = found
+            .components
+            .get_mut(place)
+            .filter(|_| !remaining.is_all())
+        else {
             return (found, None);
         };
-        let fewer = component.retained(|point| kept.has_point(point));
+        let fewer = component.retained(|point| remaining.has_point(point));
         let mean_px = mean_error_px(&fewer, images);
         let all = std::mem::replace(component, fewer);
         if let Some(mean) = found.mean_error_px.get_mut(place) {
@@ -25,22 +29,22 @@ impl Project {
         (found, Some(all))
     }
 
-    /// Returns the kept part of the depth of a pair.
+    /// Returns the remaining part of the depth of a pair.
     pub(in crate::session) fn kept_pair(&self, key: Key, pair: &Dense) -> Dense {
-        let kept = self.kept();
-        match kept.is_all() {
+        let remaining = self.remaining();
+        match remaining.is_all() {
             true => pair.clone(),
-            false => pair.retained(kept.of_cloud(key)),
+            false => pair.retained(remaining.of_cloud(key)),
         }
     }
 
-    /// Returns the kept part of the depth of all views.
+    /// Returns the remaining part of the depth of all views.
     pub(in crate::session) fn kept_views(&self) -> Option<DenseCloud> {
         let (key, cloud) = self.all_views()?;
-        let kept = self.kept();
-        Some(match kept.is_all() {
+        let remaining = self.remaining();
+        Some(match remaining.is_all() {
             true => cloud.clone(),
-            false => cloud.retained(kept.of_cloud(key)),
+            false => cloud.retained(remaining.of_cloud(key)),
         })
     }
 

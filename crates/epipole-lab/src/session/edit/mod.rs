@@ -3,8 +3,8 @@
 mod changes;
 mod crop;
 mod export;
-mod kept;
+mod remaining;
 mod select;
 
-pub use kept::{Kept, Members};
+pub use remaining::{Members, Remaining};
 pub use select::Layers;

@@ -1,6 +1,6 @@
 //! Selections of points, by position or by quality.
 
-use super::kept::Kept;
+use super::remaining::Remaining;
 use crate::project::{CropBox, Key, Mask, PhotoId, PointSet, Project};
 use crate::tasks::PointFound;
 use std::collections::BTreeMap;
@@ -33,9 +33,9 @@ impl Layers {
 }
 
 impl Project {
-    /// Selects kept points by their position.
+    /// Selects remaining points by their position.
     pub fn select(&self, layers: Layers, is_in: impl Fn([f64; 3]) -> bool) -> PointSet {
-        self.select_from(&self.kept(), layers, is_in)
+        self.select_from(&self.remaining(), layers, is_in)
     }
 
     /// Selects the points of all layers outside the box, which are not shown.
@@ -48,10 +48,10 @@ impl Project {
         of(points).with(&of(surface))
     }
 
-    /// Selects kept sparse points.
+    /// Selects remaining sparse points.
     pub fn select_sparse(&self, is_in: impl Fn(&PointFound) -> bool) -> PointSet {
-        let kept = self.kept();
-        self.sparse(|point| kept.has_point(point) && is_in(point))
+        let remaining = self.remaining();
+        self.sparse(|point| remaining.has_point(point) && is_in(point))
     }
 
     /// Returns the number of points of a set in the current component.
@@ -88,12 +88,12 @@ impl Project {
 
     fn select_from(
         &self,
-        kept: &Kept<'_>,
+        remaining: &Remaining<'_>,
         layers: Layers,
         is_in: impl Fn([f64; 3]) -> bool,
     ) -> PointSet {
         let mut selected = match layers.sparse {
-            true => self.sparse(|point| kept.has_point(point) && is_in(point.position)),
+            true => self.sparse(|point| remaining.has_point(point) && is_in(point.position)),
             false => PointSet::default(),
         };
         let mut add = |key: Key, mask: Mask| {
@@ -102,7 +102,7 @@ impl Project {
             }
         };
         if let Some((key, cloud)) = self.all_views().filter(|_| layers.dense) {
-            let has = kept.of_cloud(key);
+            let has = remaining.of_cloud(key);
             let is_chosen = |(index, place): &(u32, [f64; 3])| is_in(*place) && has(*index, *place);
             let mask = match layers.surface {
                 true => {
@@ -119,7 +119,7 @@ impl Project {
             add(key, mask);
         }
         for (key, _, _, pair) in self.dense_pairs().into_iter().filter(|_| layers.dense) {
-            let has = kept.of_cloud(key);
+            let has = remaining.of_cloud(key);
             let is_chosen = |(index, place): &(u32, [f64; 3])| is_in(*place) && has(*index, *place);
             let chosen = pair.places(1).filter(is_chosen);
             add(key, Mask::of(chosen.map(|(index, _)| index)));

@@ -39,7 +39,7 @@ impl Project {
     fn measured(&self, index: usize) -> Option<Measured> {
         let measure = self.document.measures.get(index)?;
         let [first, second] = &measure.ends;
-        if !(self.is_kept(first) && self.is_kept(second)) {
+        if !(self.is_remaining(first) && self.is_remaining(second)) {
             return None;
         }
         let length = match self.scale() {
@@ -60,7 +60,7 @@ impl Project {
     }
 
     fn measured_shape(&self, index: usize, shape: &Shape) -> Option<MeasuredShape> {
-        if !shape.points.iter().all(|point| self.is_kept(point)) {
+        if !shape.points.iter().all(|point| self.is_remaining(point)) {
             return None;
         }
         let found = self.shape_value(shape).ok()?;

@@ -9,7 +9,7 @@ use egui_kittest::kittest::{NodeT, Queryable};
 use epipole_lab::project::Project;
 
 fn num_kept(project: &Project) -> usize {
-    let kept = project.kept();
+    let kept = project.remaining();
     let points = project.component().unwrap().points.iter();
     points.filter(|point| kept.has_point(point)).count()
 }

@@ -149,8 +149,8 @@ impl Estimator for FocalEstimator {
 /// Of the four motions that the essential matrix allows, returns the one with the most inliers in
 /// front of both cameras. If the optical axes are nearly parallel, or meet at the same distance
 /// from both cameras, as when both look at one object from the same distance, any focal length fits
-/// nearly as well: then [`PoseWithFocal::constrains_focal`] is false, and rotation and direction are
-/// less accurate.
+/// nearly as well: then [`PoseWithFocal::constrains_focal`] is false, and rotation and direction
+/// are less accurate.
 ///
 /// # Errors
 /// As [`MatchSet::new`] and [`ransac`]; [`Error::TooFew`](crate::Error::TooFew),

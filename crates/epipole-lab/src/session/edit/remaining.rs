@@ -28,12 +28,12 @@ impl Members<'_> {
 }
 
 /// Points of the current component that are shown, selected and exported.
-pub struct Kept<'a> {
+pub struct Remaining<'a> {
     inside: Option<Box<dyn Fn([f64; 3]) -> bool>>,
     deleted: Members<'a>,
 }
 
-impl Kept<'_> {
+impl Remaining<'_> {
     /// Whether it has all points.
     pub fn is_all(&self) -> bool {
         self.inside.is_none() && self.deleted.set.is_empty()
@@ -68,17 +68,17 @@ impl Project {
     }
 
     /// Returns the points that are neither deleted nor outside the box.
-    pub fn kept(&self) -> Kept<'_> {
+    pub fn remaining(&self) -> Remaining<'_> {
         let inside = self.crop().map(CropBox::inside);
-        Kept {
+        Remaining {
             inside: inside.map(|inside| Box::new(inside) as Box<dyn Fn([f64; 3]) -> bool>),
             ..self.not_deleted()
         }
     }
 
     /// Returns the points that are not deleted.
-    pub(super) fn not_deleted(&self) -> Kept<'_> {
-        Kept {
+    pub(super) fn not_deleted(&self) -> Remaining<'_> {
+        Remaining {
             inside: None,
             deleted: self.members(&self.document.deleted),
         }
@@ -94,7 +94,7 @@ impl Project {
     }
 
     /// Whether the point of an anchor is neither deleted nor outside the box.
-    pub fn is_kept(&self, anchor: &Anchor) -> bool {
+    pub fn is_remaining(&self, anchor: &Anchor) -> bool {
         let Some(place) = self.anchored(anchor) else {
             return false;
         };
