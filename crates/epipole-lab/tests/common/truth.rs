@@ -17,7 +17,7 @@ pub(crate) struct TruePoint {
 }
 
 /// Largest distance of the places at which the views of a point meet the table from their mean.
-const MAX_SPREAD_M: f64 = 0.003;
+pub(crate) const MAX_SPREAD_M: f64 = 0.003;
 
 /// Well observed points on the top of the table.
 pub(crate) fn table_points(project: &Project) -> Vec<TruePoint> {
