@@ -293,7 +293,7 @@ fn photos_that_do_not_fit_together_are_rejected() {
         ),
         (
             vec![path(&photo), path(&again)],
-            "no two images can start a reconstruction; 0.png: it was taken from nearly the same place",
+            "no two images can start a reconstruction; 0.png: it was taken from nearly the same position",
         ),
         (vec![path(&empty)], "there are no images in this folder"),
         (

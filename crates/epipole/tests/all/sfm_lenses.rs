@@ -332,7 +332,7 @@ fn a_fisheye_that_only_rotated_begins_nothing() {
     assert!(result.components.is_empty());
     let why = why_unregistered(&world.input, &options, &result, &mut ()).unwrap();
     assert!(
-        why[0].to_string().contains("nearly the same place"),
+        why[0].to_string().contains("nearly the same position"),
         "{}",
         why[0]
     );

@@ -47,7 +47,7 @@ impl Measuring {
     /// Shows the choice of the next figure, its instruction, and the ways out of it.
     fn next(&mut self, screen: &mut Screen<'_>, ui: &mut Ui) {
         let project = screen.project;
-        if let Some(kind) = controls::choose(ui, "Next clicks make", self.making.kind, &Kind::ALL) {
+        if let Some(kind) = controls::choose(ui, "Kind", self.making.kind, &Kind::ALL) {
             self.making.start(kind);
         }
         ui.label(self.making.instruction(project));

@@ -32,6 +32,7 @@ pub(super) fn round_below(length: f64) -> f64 {
 /// Writes a round length, in meters or units.
 fn length_words(length: f64, is_metric: bool) -> String {
     match (is_metric, length) {
+        (false, 0.999..1.001) => "1 unit".to_owned(),
         (false, _) => format!("{} units", plain(length)),
         (true, 1000.0..) => format!("{} km", plain(length / 1000.0)),
         (true, 0.999..) => format!("{} m", plain(length)),
@@ -178,6 +179,7 @@ mod tests {
             assert!((found / round - 1.0).abs() < 1e-9, "{length}: {found}");
         }
         assert_eq!(length_words(0.2, false), "0.2 units");
+        assert_eq!(length_words(1.0, false), "1 unit");
         let metric = [2000.0, 5.0, 1.0, 0.5, 0.01, 0.002].map(|m| length_words(m, true));
         assert_eq!(metric, ["2 km", "5 m", "1 m", "50 cm", "1 cm", "2 mm"]);
     }

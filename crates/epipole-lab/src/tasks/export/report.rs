@@ -114,9 +114,9 @@ pub(super) fn paper(export: &Export, model: &Reconstruction) -> Paper {
         wanted.map(|(index, length)| (format!("Length {}", index + 1), length.words.clone()))
     };
     let control = (measures.control_points.iter()).map(|control| {
-        let known = control
-            .position_m
-            .map_or(String::new(), |[x, y, z]| format!(" ({x}, {y}, {z} m)"));
+        let known = control.position_m.map_or(String::new(), |place| {
+            format!(" ({} m)", coordinates(place))
+        });
         (control.name.clone(), format!("{}{known}", control.words))
     });
     let shapes = (measures.shapes.iter()).map(|shape| (shape.name.clone(), shape.words.clone()));
@@ -134,6 +134,13 @@ pub(super) fn paper(export: &Export, model: &Reconstruction) -> Paper {
         picture: super::view::picture(export, model),
         photos: Vec::new(),
     }
+}
+
+/// Writes coordinates to a tenth of a millimeter, without a sign before zero.
+fn coordinates(place_m: [f64; 3]) -> String {
+    place_m
+        .map(|x| format!("{:.4}", (x * 1e4).round() / 1e4 + 0.0))
+        .join(", ")
 }
 
 /// Describes the focal lengths of all registered images.

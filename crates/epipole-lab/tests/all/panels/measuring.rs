@@ -120,7 +120,7 @@ fn areas_and_control_points_are_made_by_clicks() {
         let is_word = |node: &egui_kittest::Node<'_>| {
             node.accesskit_node().role() == egui::accesskit::Role::Label
         };
-        for label in ["Next clicks make", name] {
+        for label in ["Kind", name] {
             let widget = bench.get_all_by_label(label).find(|node| !is_word(node));
             widget.unwrap().click();
             bench.run_steps(4);
