@@ -48,7 +48,7 @@ BY_RULE = {
         stereo.RectifiedPair.filled stereo.fill_gaps stereo.point_cloud stitch.Overlap
         stitch.Panorama""",
     "results from valid attributes": """
-        calibration.Board.drawing calibration.Board.marks calibration.BoardView.seen
+        calibration.Board.drawing calibration.Board.marks calibration.BoardView.visible
         camera.Intrinsics.inverse_matrix camera.Intrinsics.matrix
         camera.PosedCamera.projection_matrix camera.RigidTransform.matrix
         epipolar.PoseWithFocal.constrains_focal epipolar.RelativePose.essential

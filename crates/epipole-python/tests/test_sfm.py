@@ -140,7 +140,7 @@ def test_known_poses_give_points(problem, input):
     assert some.cameras[0] is None and len(some.points) == 0
     with pytest.raises(epipole.TooFewError, match="known poses"):
         sfm.triangulate_tracks(input, [poses[0]] + [None] * 5)
-    with pytest.raises(ValueError, match="photographs and of their poses"):
+    with pytest.raises(ValueError, match="images and of their poses"):
         sfm.triangulate_tracks(input, poses[:2])
 
 

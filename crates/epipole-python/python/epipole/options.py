@@ -162,6 +162,7 @@ class PhotoOptions(TypedDict, total=False):
     features: FeatureOptions
     matching: MatchOptions
     neighbors: int  # 0
+    similar: int | None  # None
     best_first: bool  # False
 
 

@@ -1647,7 +1647,7 @@ def match_features(
     progress: Callable[[str, float], object] | None = None,
     **options: Unpack[option_types.PhotoOptions],
 ) -> list[PairMatches]:
-    """Matches all pairs of photos, or those close in order.
+    """Matches pairs of photos: of some dozens all, of more similar ones or those close in order.
 
     Parameters
     ----------
@@ -1656,7 +1656,8 @@ def match_features(
         Called with the stage and the completed fraction.
     **options : PhotoOptions
         ``matching``, a dict such as ``{"max_ratio": 0.8}``; ``neighbors``, the number of following
-        photos to match with each photo, 0 for all; ``best_first``.
+        photos to match with each photo; ``similar``, the number of photos that look most like it,
+        by default 40 if ``neighbors`` is 0, else 0 (all pairs if both are 0); ``best_first``.
 
     Returns
     -------
