@@ -368,7 +368,7 @@ fn mistakes_are_sentences() {
             "not a small whole number",
         ),
         ("ransac.trials s=2.5 w=0.5 p=0.99", "s=2.5 is not a count"),
-        ("ransac.trials s=2 w=1.5 p=0.99", "the share of inliers"),
+        ("ransac.trials s=2 w=1.5 p=0.99", "the inlier ratio"),
         ("stereo.depth f=700 b=0.12 d=0", "infinitely far away"),
         (
             "epipolar.epipole2-u f=500 cu=320 cv=240 tx=1 ty=0 tz=0",
