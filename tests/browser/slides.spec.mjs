@@ -72,7 +72,7 @@ test("keys turn the slides, and words below a figure operate it", async ({ page,
   await ready(figure);
   const disparity = () => figure.evaluate((element) => element.readouts.disparity);
   const before = await disparity();
-  await present(page).getByRole("button", { name: "halve its distance" }).click();
+  await present(page).getByRole("button", { name: "compare" }).click();
   await expect.poll(disparity).toBeGreaterThan(1.9 * before);
   await page.keyboard.press("ArrowRight");
   await expect(present(page)).toHaveAttribute("data-kind", "formula");
