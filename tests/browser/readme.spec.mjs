@@ -1,7 +1,7 @@
 // The examples for pages of the npm package's README: a panorama of two photos, a webcam.
 
 import { expect, test } from "@playwright/test";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -31,8 +31,12 @@ test.use({
     ],
   },
 });
-test.beforeAll(() => writeFileSync(webcam, video()));
-test.afterAll(() => rmSync(temporary, { recursive: true }));
+// A worker may run them more than once for this file, which it loads once.
+test.beforeAll(() => {
+  mkdirSync(temporary, { recursive: true });
+  writeFileSync(webcam, video());
+});
+test.afterAll(() => rmSync(temporary, { recursive: true, force: true }));
 
 /** Video in gray of a plane that moves by STEP for each frame, and back. */
 function video() {
