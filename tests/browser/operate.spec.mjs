@@ -158,8 +158,11 @@ test("a docked figure goes home when closed, reached or left behind, and moves n
   await expect(words).toBeInViewport();
   await expect(box).toHaveClass(/docked/);
   await page.mouse.move(640, 600);
+  const left = await scroll();
   await page.mouse.wheel(0, 3000);
   await expect(box).not.toHaveClass(/docked/);
+  // The wheel scrolls over several frames, and would go on under the next click.
+  await expect.poll(scroll).toBe(left + 3000);
   await dock();
   await box.locator(".dock-bar .figure-number").click();
   await expect(box).not.toHaveClass(/docked/);
