@@ -19,15 +19,20 @@ const LEAST_CONTRAST: f64 = 0.02;
 /// Minimum number of pixels to determine nine parameters well.
 const LEAST_PIXELS: usize = 25;
 
-/// Dark squares within the two bright quadrants, such as the markers of a ChArUco board: one corner
-/// of each points to the crossing, and their sides are parallel to the edges.
+/// A side of an inset: the points whose distance from the nearest edge is
+/// `offset_px + slope · (position along the edge)`, on one side of the edge.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Insets {
-    /// Distance of their sides from each edge, pixels.
-    pub(super) margins_px: [f64; 2],
-    /// Whether the bright quadrants are those in which both signed distances have the same sign.
-    pub(super) are_where_signs_agree: bool,
+pub(super) struct InsetSide {
+    /// Sign of the signed distance from the edge.
+    pub(super) sign: f64,
+    pub(super) offset_px: f64,
+    /// Zero unless the board is seen in perspective.
+    pub(super) slope: f64,
 }
+
+/// Dark squares within the two bright quadrants, such as the markers of a ChArUco board: of each,
+/// the two sides that meet nearest to the crossing, one along each edge.
+pub(super) type Insets = [[InsetSide; 2]; 2];
 
 /// The gray `m + c·Φ(d₁/σ)·Φ(d₂/σ) + s·x`, where dᵢ is the distance from edge i and
 /// `Φ(x) = erf(x/√2)`, minus `2c` within the insets, blurred alike.
@@ -48,11 +53,11 @@ struct Crossing {
     insets: Option<Insets>,
 }
 
-/// Derivatives of a term by the signed distances from both edges, by the blur, and its value, all
-/// for a contrast of 1.
-#[derive(Default)]
+/// Derivatives of a term by the signed distances from both edges, by the positions along them, and
+/// by the blur, and its value, all for a contrast of 1.
 struct Term {
     by_distance: [f64; 2],
+    by_position: [f64; 2],
     by_blur: f64,
     value: f64,
 }
@@ -71,58 +76,63 @@ impl Crossing {
             (sine, cosine, across, along)
         };
         let [a, b] = self.angles_rad.map(edge);
-        let term = self.term([a.2, b.2]);
-        let [by_a, by_b] = term.by_distance.map(|by| self.contrast * by);
-        let derivatives = SVector::from([
-            by_a * a.0 + by_b * b.0,
-            -by_a * a.1 - by_b * b.1,
-            -by_a * a.3,
-            -by_b * b.3,
+        let term = self.term([a.2, b.2], [a.3, b.3]);
+        let mut derivatives = SVector::from([
+            0.0,
+            0.0,
+            0.0,
+            0.0,
             self.contrast * term.by_blur,
             1.0,
             term.value,
             x,
             y,
         ]);
+        for (k, (sine, cosine, across, along)) in [a, b].into_iter().enumerate() {
+            let by_distance = self.contrast * term.by_distance[k];
+            let by_position = self.contrast * term.by_position[k];
+            derivatives[0] += by_distance * sine - by_position * cosine;
+            derivatives[1] -= by_distance * cosine + by_position * sine;
+            derivatives[2 + k] = by_position * across - by_distance * along;
+        }
         let gray = self.middle + self.contrast * term.value + self.slope.x * x + self.slope.y * y;
         (gray, derivatives)
     }
 
-    /// Returns the factor of the contrast at signed distances from the edges.
-    fn term(&self, [a, b]: [f64; 2]) -> Term {
+    /// Returns the factor of the contrast at signed distances from the edges and positions along
+    /// them.
+    fn term(&self, across: [f64; 2], along: [f64; 2]) -> Term {
         let scale = FRAC_1_SQRT_2 / self.blur_px;
         // Φ at a signed distance, and its derivative.
         let step = |across: f64| {
             let t = across * scale;
             (libm::erf(t), FRAC_2_SQRT_PI * scale * libm::exp(-t * t))
         };
-        let ((at_a, rise_a), (at_b, rise_b)) = (step(a), step(b));
+        let [(at_a, rise_a), (at_b, rise_b)] = across.map(step);
         let mut term = Term {
             by_distance: [rise_a * at_b, at_a * rise_b],
-            by_blur: -(rise_a * at_b * a + at_a * rise_b * b) / self.blur_px,
+            by_position: [0.0; 2],
+            by_blur: -(rise_a * at_b * across[0] + at_a * rise_b * across[1]) / self.blur_px,
             value: at_a * at_b,
         };
-        let Some(Insets {
-            margins_px,
-            are_where_signs_agree,
-        }) = self.insets
-        else {
-            return term;
-        };
-        for sign_a in [1.0, -1.0] {
-            let sign_b = if are_where_signs_agree {
-                sign_a
-            } else {
-                -sign_a
-            };
-            let (inside_a, inside_b) = (sign_a * a - margins_px[0], sign_b * b - margins_px[1]);
-            let ((at_a, rise_a), (at_b, rise_b)) = (step(inside_a), step(inside_b));
+        for sides in self.insets.iter().flatten() {
+            let inside = [0, 1].map(|k| {
+                let InsetSide {
+                    sign,
+                    offset_px,
+                    slope,
+                } = sides[k];
+                sign * across[k] - offset_px - slope * along[k]
+            });
+            let [(at_a, rise_a), (at_b, rise_b)] = inside.map(step);
             // Bright quadrants have the value 1 or -1, and the insets that of the dark ones.
-            let depth = if are_where_signs_agree { -0.5 } else { 0.5 };
-            let (by_a, by_b) = (depth * rise_a * (1.0 + at_b), depth * (1.0 + at_a) * rise_b);
-            term.by_distance[0] += sign_a * by_a;
-            term.by_distance[1] += sign_b * by_b;
-            term.by_blur -= (by_a * inside_a + by_b * inside_b) / self.blur_px;
+            let depth = -0.5 * sides[0].sign * sides[1].sign;
+            let by_inside = [depth * rise_a * (1.0 + at_b), depth * (1.0 + at_a) * rise_b];
+            for k in 0..2 {
+                term.by_distance[k] += sides[k].sign * by_inside[k];
+                term.by_position[k] -= sides[k].slope * by_inside[k];
+                term.by_blur -= by_inside[k] * inside[k] / self.blur_px;
+            }
             term.value += depth * (1.0 + at_a) * (1.0 + at_b);
         }
         term
@@ -288,11 +298,20 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_differences() {
-        let insets = [false, true].map(|are_where_signs_agree| Insets {
-            margins_px: [1.0, 1.3],
-            are_where_signs_agree,
-        });
-        for insets in [None, Some(insets[0]), Some(insets[1])] {
+        let side = |sign: f64, offset_px: f64, slope: f64| InsetSide {
+            sign,
+            offset_px,
+            slope,
+        };
+        let agreeing = [
+            [side(1.0, 1.0, 0.1), side(1.0, 1.3, -0.05)],
+            [side(-1.0, 1.1, 0.0), side(-1.0, 1.2, 0.08)],
+        ];
+        let differing = [
+            [side(1.0, 1.0, 0.1), side(-1.0, 1.3, -0.05)],
+            [side(-1.0, 1.1, 0.0), side(1.0, 1.2, 0.08)],
+        ];
+        for insets in [None, Some(agreeing), Some(differing)] {
             check_derivatives(insets);
         }
     }

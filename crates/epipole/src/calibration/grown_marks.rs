@@ -1,7 +1,7 @@
 //! Search for the marks of a board from their neighbors.
 
 use super::board_markers::{BoardMarkers, MarkerInsets};
-use super::crossing::Insets;
+use super::crossing::{InsetSide, Insets};
 use super::refine_mark::{Reach, refine_mark};
 use super::{Board, BoardView};
 use crate::Result;
@@ -88,15 +88,50 @@ impl<'a> GrownMarks<'a> {
             return Ok(None);
         };
         let spacing = steps[0].norm().min(steps[1].norm());
-        let area = steps[0].perp(&steps[1]).abs();
-        let insets = self.insets.map(|insets| Insets {
-            margins_px: steps.map(|step| insets.margin * area / step.norm()),
-            // The signs differ between both steps, and between their opposites.
-            are_where_signs_agree: self.is_dark_between_steps(mark),
+        let insets = self.insets.and_then(|insets| {
+            self.insets_at(mark, insets.margin, pixel_from_square, &pixel, &steps)
         });
         let refined = refine_mark(self.image, &pixel, steps, spacing, &self.reach, insets)?;
         let radius_px = (COLORS_AT * self.clear * spacing).max(LEAST_COLORS_AT_PX);
         Ok(refined.filter(|pixel| self.has_right_colors(mark, pixel, &steps, radius_px)))
+    }
+
+    /// Predicts the insets in the two bright quadrants at a mark.
+    fn insets_at(
+        &self,
+        mark: usize,
+        margin: f64,
+        pixel_from_square: &Matrix3<f64>,
+        pixel: &Point2<f64>,
+        steps: &[Vector2<f64>; 2],
+    ) -> Option<Insets> {
+        let place = self.board.mark_in_squares(mark);
+        let directions = steps.map(|step| step.normalize());
+        let from_mark = |p: &Point2<f64>| Some(transfer(pixel_from_square, p)? - pixel);
+        let inset = |towards: Vector2<f64>| {
+            let corner = place + margin * towards;
+            let nearest = from_mark(&corner)?;
+            let side = |axis: usize| {
+                let mut next = corner;
+                next[axis] += margin * towards[axis];
+                let ends = [nearest, from_mark(&next)?];
+                let along = ends.map(|end| directions[axis].dot(&end));
+                let across = ends.map(|end| directions[axis].perp(&end));
+                let slope = (across[1] - across[0]) / (along[1] - along[0]);
+                let sign = across[0].signum();
+                Some(InsetSide {
+                    sign,
+                    offset_px: sign * (across[0] - slope * along[0]),
+                    slope: sign * slope,
+                })
+            };
+            Some([side(0)?, side(1)?])
+        };
+        let first = match self.is_dark_between_steps(mark) {
+            true => Vector2::new(1.0, -1.0),
+            false => Vector2::new(1.0, 1.0),
+        };
+        Some([inset(first)?, inset(-first)?])
     }
 
     /// Whether the quadrant between the steps along both axes is dark. Squares with an even sum of
