@@ -5,6 +5,7 @@ use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::robust::{RansacReport, estimate};
 use epipole::absolute_pose;
 use epipole::nalgebra::{Point2, Point3};
@@ -373,15 +374,10 @@ fn reprojection_error_px<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<AbsolutePoseWithFocal>()?;
-    module.add_function(wrap_pyfunction!(estimate_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_absolute_pose_and_focal, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_p3p, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_p4pf, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(fit_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(find_flipped_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(refine_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(reprojection_error_px, module)?)?;
+    classes!(module: AbsolutePoseWithFocal);
+    functions!(module:
+        estimate_absolute_pose, estimate_absolute_pose_and_focal, pose_p3p, pose_p4pf, pose_dlt,
+        fit_absolute_pose, find_flipped_pose, refine_absolute_pose, reprojection_error_px
+    );
     Ok(())
 }

@@ -7,6 +7,7 @@ use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::robust::{RansacReport, estimate};
 use epipole::nalgebra::{Matrix3, Point2};
 use epipole::{Error, homography};
@@ -354,15 +355,11 @@ fn homography_from_motion<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PlaneMotion>()?;
-    module.add_function(wrap_pyfunction!(estimate_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_homography_calibrated, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_4point, module)?)?;
-    module.add_function(wrap_pyfunction!(fit_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(refine_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer_error_px, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_sampson_px, module)?)?;
-    module.add_function(wrap_pyfunction!(decompose_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_from_motion, module)?)
+    classes!(module: PlaneMotion);
+    functions!(module:
+        estimate_homography, estimate_homography_calibrated, homography_4point, fit_homography,
+        refine_homography, transfer, transfer_error_px, homography_sampson_px, decompose_homography,
+        homography_from_motion
+    );
+    Ok(())
 }

@@ -7,6 +7,7 @@ mod view;
 
 use crate::images::rgb;
 use crate::io::give_cloud;
+use crate::register::{classes, functions};
 use crate::sfm::Reconstruction;
 use crate::{options, progress};
 use depth_map::DepthMap;
@@ -141,15 +142,13 @@ fn fuse_depth_maps<'py>(
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &mvs::MvsOptions::default())?;
-    module.add_class::<MvsView>()?;
-    module.add_class::<DepthMap>()?;
-    module.add_function(wrap_pyfunction!(prepare_views, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_depth_maps, module)?)?;
-    module.add_function(wrap_pyfunction!(fuse_depth_maps, module)?)?;
+    classes!(module: MvsView, DepthMap);
+    functions!(module: prepare_views, estimate_depth_maps, fuse_depth_maps);
     crate::options::declare(module, &mvs::MeshOptions::default())?;
-    module.add_class::<mesh::Mesh>()?;
-    module.add_function(wrap_pyfunction!(mesh::mesh_depth_maps, module)?)?;
+    classes!(module: mesh::Mesh);
+    functions!(module: mesh::mesh_depth_maps);
     crate::options::declare(module, &mvs::TextureOptions::default())?;
-    module.add_class::<texture::MeshTexture>()?;
-    module.add_function(wrap_pyfunction!(texture::texture_mesh, module)?)
+    classes!(module: texture::MeshTexture);
+    functions!(module: texture::texture_mesh);
+    Ok(())
 }

@@ -4,6 +4,7 @@ use crate::arrays::{from_matrix, from_rows, matrix, points2};
 use crate::camera::Intrinsics;
 use crate::errors::OrRaise;
 use crate::images::{from_rgb, rgb};
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::{require_equal, wrapper};
 use crate::{options, progress};
 use epipole::nalgebra::Matrix3;
@@ -363,10 +364,7 @@ fn render_panorama<'py>(
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::stitch::OverlapOptions::default())?;
     crate::options::declare(module, &epipole::stitch::RenderOptions::default())?;
-    module.add_class::<Overlap>()?;
-    module.add_class::<Panorama>()?;
-    module.add_function(wrap_pyfunction!(find_overlap, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_panorama, module)?)?;
-    module.add_function(wrap_pyfunction!(chain_homographies, module)?)?;
-    module.add_function(wrap_pyfunction!(render_panorama, module)?)
+    classes!(module: Overlap, Panorama);
+    functions!(module: find_overlap, estimate_panorama, chain_homographies, render_panorama);
+    Ok(())
 }

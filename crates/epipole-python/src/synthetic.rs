@@ -5,6 +5,7 @@ use crate::camera::PosedCamera;
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
+use crate::register::classes;
 use crate::sfm::wrapper::give_index_rows;
 use epipole::nalgebra::{Point2, Point3};
 use epipole::synthetic;
@@ -246,7 +247,6 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module,
         &epipole::synthetic::TwoViewProblemOptions::default(),
     )?;
-    module.add_class::<TwoViewProblem>()?;
-    module.add_class::<MultiViewProblem>()?;
-    module.add_class::<Sightings>()
+    classes!(module: TwoViewProblem, MultiViewProblem, Sightings);
+    Ok(())
 }

@@ -5,6 +5,7 @@ use crate::camera::{PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
+use crate::register::{classes, functions};
 use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, Vector4};
 use epipole::{camera, triangulation};
 use numpy::{PyArray1, PyArray2};
@@ -348,16 +349,11 @@ fn cores(cameras: &[PosedCamera]) -> Vec<camera::PosedCamera> {
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<NviewPoint>()?;
-    module.add_function(wrap_pyfunction!(triangulate_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_midpoint, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_weighted_midpoint, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_angular, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_optimal, module)?)?;
-    module.add_function(wrap_pyfunction!(correct_matches, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_nview_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_nview, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulation_angle_rad, module)?)?;
-    module.add_function(wrap_pyfunction!(point_covariance, module)?)?;
+    classes!(module: NviewPoint);
+    functions!(module:
+        triangulate_dlt, triangulate_midpoint, triangulate_weighted_midpoint, triangulate_angular,
+        triangulate_optimal, correct_matches, triangulate_nview_dlt, triangulate_nview,
+        triangulation_angle_rad, point_covariance
+    );
     Ok(())
 }

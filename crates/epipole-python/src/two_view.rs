@@ -6,6 +6,7 @@ use crate::errors::OrRaise;
 use crate::options;
 use crate::progress;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::robust::{RansacReport, estimate, stop_reason};
 use epipole::nalgebra::Matrix3;
 use epipole::two_view::{self, Configuration, TwoViewModel, TwoViewOptions};
@@ -437,16 +438,10 @@ fn find_rotation_and_focal(
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("PHOTO_MAX_ERROR_PX", two_view::PHOTO_MAX_ERROR_PX)?;
     options::declare(module, &TwoViewOptions::default())?;
-    module.add_class::<TwoViewReport>()?;
-    module.add_class::<ExplainingRotation>()?;
-    module.add_class::<RotationAndFocal>()?;
-    module.add_class::<Degeneracy>()?;
-    module.add_function(wrap_pyfunction!(estimate_two_view, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_two_view_calibrated, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_rotation, module)?)?;
-    module.add_function(wrap_pyfunction!(find_degeneracy, module)?)?;
-    module.add_function(wrap_pyfunction!(find_unmoved, module)?)?;
-    module.add_function(wrap_pyfunction!(find_explaining_rotation, module)?)?;
-    module.add_function(wrap_pyfunction!(find_rotation_and_focal, module)?)?;
+    classes!(module: TwoViewReport, ExplainingRotation, RotationAndFocal, Degeneracy);
+    functions!(module:
+        estimate_two_view, estimate_two_view_calibrated, estimate_rotation, find_degeneracy,
+        find_unmoved, find_explaining_rotation, find_rotation_and_focal
+    );
     Ok(())
 }

@@ -7,68 +7,28 @@ mod solvers;
 
 pub(crate) use relative_pose::RelativePose;
 
+use crate::register::{classes, functions};
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<RelativePose>()?;
-    module.add_class::<relative_pose::PoseWithFocal>()?;
-    module.add_class::<relative_pose::EssentialWithFocal>()?;
-    module.add_class::<relative_pose::SelectedPose>()?;
-    module.add_class::<solvers::EightPoint>()?;
-    module.add_function(wrap_pyfunction!(estimate::estimate_fundamental, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate::estimate_essential, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate::estimate_relative_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        estimate::estimate_relative_pose_with_gravity,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(
-        estimate::estimate_relative_pose_and_focal,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(solvers::fundamental_7point, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::fundamental_8point, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        solvers::fundamental_8point_explained,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(
-        solvers::fundamental_8point_unnormalized,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(solvers::essential_5point, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::essential_8point, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::essential_6point, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::relative_pose_3point, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::refine_fundamental, module)?)?;
-    module.add_function(wrap_pyfunction!(solvers::refine_relative_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::sampson_px, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::tangent_sampson_px, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::symmetric_epipolar_px, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::epipolar_row, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::epipolar_line1, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::epipolar_line2, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::epipoles, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::enforce_rank2, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::project_to_essential, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::decompose_essential, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::select_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(geometry::essential_from_motion, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        geometry::fundamental_from_cameras,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(
-        geometry::fundamental_from_essential,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(
-        geometry::essential_from_fundamental,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(
-        geometry::focal_lengths_from_fundamental,
-        module
-    )?)?;
+    classes!(module:
+        RelativePose, relative_pose::PoseWithFocal, relative_pose::EssentialWithFocal,
+        relative_pose::SelectedPose, solvers::EightPoint
+    );
+    functions!(module:
+        estimate::estimate_fundamental, estimate::estimate_essential,
+        estimate::estimate_relative_pose, estimate::estimate_relative_pose_with_gravity,
+        estimate::estimate_relative_pose_and_focal, solvers::fundamental_7point,
+        solvers::fundamental_8point, solvers::fundamental_8point_explained,
+        solvers::fundamental_8point_unnormalized, solvers::essential_5point,
+        solvers::essential_8point, solvers::essential_6point, solvers::relative_pose_3point,
+        solvers::refine_fundamental, solvers::refine_relative_pose, geometry::sampson_px,
+        geometry::tangent_sampson_px, geometry::symmetric_epipolar_px, geometry::epipolar_row,
+        geometry::epipolar_line1, geometry::epipolar_line2, geometry::epipoles,
+        geometry::enforce_rank2, geometry::project_to_essential, geometry::decompose_essential,
+        geometry::select_pose, geometry::essential_from_motion, geometry::fundamental_from_cameras,
+        geometry::fundamental_from_essential, geometry::essential_from_fundamental,
+        geometry::focal_lengths_from_fundamental
+    );
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::source::{Source, or_raise, write};
 use crate::arrays::{from_rows, points3};
 use crate::images::{column, disparity, from_disparity};
+use crate::register::functions;
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
 use epipole::stereo::{DisparityImage, PointCloud};
@@ -272,13 +273,9 @@ fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(read_ply, module)?)?;
-    module.add_function(wrap_pyfunction!(write_ply, module)?)?;
-    module.add_function(wrap_pyfunction!(read_pfm, module)?)?;
-    module.add_function(wrap_pyfunction!(write_pfm, module)?)?;
-    module.add_function(wrap_pyfunction!(write_png16, module)?)?;
-    module.add_function(wrap_pyfunction!(read_g2o, module)?)?;
-    module.add_function(wrap_pyfunction!(write_g2o, module)?)?;
-    module.add_function(wrap_pyfunction!(read_bal, module)?)?;
-    module.add_function(wrap_pyfunction!(write_bal, module)?)
+    functions!(module:
+        read_ply, write_ply, read_pfm, write_pfm, write_png16, read_g2o, write_g2o, read_bal,
+        write_bal
+    );
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use super::source::{Source, format_of, write};
 use crate::arrays::{from_rows, points2};
 use crate::images::column;
+use crate::register::functions;
 use crate::sfm::wrapper::require_equal;
 use epipole::nalgebra::{Point2, Point3};
 use epipole_io::matches::{self, MatchLayout};
@@ -157,8 +158,6 @@ fn write_matches(
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(read_matches, module)?)?;
-    module.add_function(wrap_pyfunction!(read_points, module)?)?;
-    module.add_function(wrap_pyfunction!(read_points_with_pixels, module)?)?;
-    module.add_function(wrap_pyfunction!(write_matches, module)?)
+    functions!(module: read_matches, read_points, read_points_with_pixels, write_matches);
+    Ok(())
 }

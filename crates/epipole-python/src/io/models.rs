@@ -7,6 +7,7 @@ use crate::arrays::{from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, RigidTransform};
 use crate::progress;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::{
     colors, give_colors, give_index_rows, index_rows, require_equal, wrapper,
 };
@@ -504,10 +505,7 @@ fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<ModelImage>()?;
-    module.add_class::<Rig>()?;
-    module.add_class::<Model>()?;
-    module.add_class::<ReadModel>()?;
-    module.add_function(wrap_pyfunction!(read_model_folder, module)?)?;
-    module.add_function(wrap_pyfunction!(read_model_file, module)?)
+    classes!(module: ModelImage, Rig, Model, ReadModel);
+    functions!(module: read_model_folder, read_model_file);
+    Ok(())
 }

@@ -7,6 +7,7 @@ use crate::images::{from_gray, from_rgb, rgb};
 use crate::math::Geodetic;
 use crate::progress;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::wrapper;
 use epipole_io::photo::{self, DecodeOptions, PixelRange, PrepareOptions};
 use numpy::PyArray3;
@@ -366,10 +367,7 @@ fn prepare_photo(
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Decoded>()?;
-    module.add_class::<PreparedPhoto>()?;
-    module.add_function(wrap_pyfunction!(decode_rgb, module)?)?;
-    module.add_function(wrap_pyfunction!(decode_gray, module)?)?;
-    module.add_function(wrap_pyfunction!(sensor_size, module)?)?;
-    module.add_function(wrap_pyfunction!(prepare_photo, module)?)
+    classes!(module: Decoded, PreparedPhoto);
+    functions!(module: decode_rgb, decode_gray, sensor_size, prepare_photo);
+    Ok(())
 }
