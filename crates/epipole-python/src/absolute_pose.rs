@@ -6,7 +6,7 @@ use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
 use crate::register::{classes, functions};
-use crate::robust::{RansacReport, estimate};
+use crate::robust::{RansacReport, estimate, give_object};
 use epipole::absolute_pose;
 use epipole::nalgebra::{Point2, Point3};
 use pyo3::prelude::*;
@@ -85,14 +85,11 @@ fn estimate_absolute_pose(
 ) -> PyResult<RansacReport> {
     let points = points3("points_in_world", points_in_world)?;
     let pixels = points2("pixels", pixels)?;
-    let options = options::read(options)?;
     let camera = &camera.0;
-    estimate(
-        py,
-        progress,
-        |m| absolute_pose::estimate_absolute_pose(&points, &pixels, camera, &options, m),
-        |model| Ok(Bound::new(py, RigidTransform::from(model))?.into_any()),
-    )
+    let give = give_object::<_, RigidTransform>;
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
+    })
 }
 
 /// Estimates pose and focal length of a camera from points with outliers, by RANSAC.
@@ -135,17 +132,12 @@ fn estimate_absolute_pose_and_focal(
     let points = points3("points_in_world", points_in_world)?;
     let pixels = points2("pixels", pixels)?;
     let principal = Point2::from(vector("principal", principal)?);
-    let options = options::read(options)?;
-    estimate(
-        py,
-        progress,
-        |monitor| {
-            absolute_pose::estimate_absolute_pose_and_focal(
-                &points, &pixels, &principal, &options, monitor,
-            )
-        },
-        |model| Ok(Bound::new(py, AbsolutePoseWithFocal::from(model))?.into_any()),
-    )
+    let give = give_object::<_, AbsolutePoseWithFocal>;
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose_and_focal(
+            &points, &pixels, &principal, options, monitor,
+        )
+    })
 }
 
 /// Computes the poses from three rays and their points.

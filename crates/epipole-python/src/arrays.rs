@@ -5,7 +5,7 @@
 
 mod batch;
 
-pub(crate) use batch::{Batch, Pairs};
+pub(crate) use batch::{Batch, Pairs, match_errors};
 
 use epipole::nalgebra;
 use nalgebra::{Matrix3, OPoint, Point2, Point3, SMatrix, SVector};
@@ -20,6 +20,14 @@ use std::ops::Range;
 /// Reads an array of shape `(N, 2)`.
 pub(crate) fn points2(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Point2<f64>>> {
     rows(name, value, |&[u, v]| Point2::new(u, v))
+}
+
+/// Reads the arguments `pixels1` and `pixels2`, each an array of shape `(N, 2)`.
+pub(crate) fn pixel_pairs(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+) -> PyResult<[Vec<Point2<f64>>; 2]> {
+    Ok([points2("pixels1", pixels1)?, points2("pixels2", pixels2)?])
 }
 
 /// Reads an array of shape `(N, 3)`.

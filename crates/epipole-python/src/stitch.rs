@@ -1,6 +1,6 @@
 //! Panoramas.
 
-use crate::arrays::{from_matrix, from_rows, matrix, points2};
+use crate::arrays::{from_matrix, from_rows, matrix, pixel_pairs};
 use crate::camera::Intrinsics;
 use crate::errors::OrRaise;
 use crate::images::{from_rgb, rgb};
@@ -45,7 +45,7 @@ impl Overlap {
         num_matches: usize,
         has_parallax: bool,
     ) -> PyResult<Self> {
-        let pixels = [points2("pixels1", pixels1)?, points2("pixels2", pixels2)?];
+        let pixels = pixel_pairs(pixels1, pixels2)?;
         require_equal(("pixels1", pixels[0].len()), ("pixels2", pixels[1].len()))?;
         Ok(Self(stitch::Overlap {
             images,
@@ -234,7 +234,7 @@ fn find_overlap(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Overlap>> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let options = options::read(options)?;
     let overlap = progress::run(py, progress, |monitor| {
         stitch::find_overlap(images, &pixels1, &pixels2, &options, monitor)

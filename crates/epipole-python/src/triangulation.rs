@@ -6,7 +6,7 @@ use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
 use crate::register::{classes, functions};
-use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, Vector4};
+use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, Vector3, Vector4};
 use epipole::{camera, triangulation};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -49,10 +49,27 @@ fn triangulate_dlt<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let p1: Matrix3x4<f64> = matrix("p1", p1)?;
     let p2: Matrix3x4<f64> = matrix("p2", p2)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = (Point2::from(*a), Point2::from(*b));
         Ok(triangulation::triangulate_dlt(&p1, &p2, &a, &b)?.coords)
     })
+}
+
+/// Triangulates points from rays in the frames of their cameras.
+fn triangulate_rays<'py>(
+    cam2_from_cam1: &RigidTransform,
+    ray1: &Bound<'py, PyAny>,
+    ray2: &Bound<'py, PyAny>,
+    method: impl Fn(
+        &camera::RigidTransform,
+        &Vector3<f64>,
+        &Vector3<f64>,
+    ) -> epipole::Result<Point3<f64>>
+    + Sync,
+) -> PyResult<Bound<'py, PyAny>> {
+    let motion = &cam2_from_cam1.0;
+    let pairs = Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?;
+    pairs.vectors(ray1.py(), |a, b| Ok(method(motion, a, b)?.coords))
 }
 
 /// Triangulates points of two views: the midpoints where rays are nearest to each other.
@@ -88,10 +105,8 @@ fn triangulate_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_midpoint(motion, a, b)?.coords)
-    })
+    let method = triangulation::triangulate_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
 }
 
 /// Triangulates points of two views: midpoints of rays, weighted by inverse depth.
@@ -120,10 +135,8 @@ fn triangulate_weighted_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_weighted_midpoint(motion, a, b)?.coords)
-    })
+    let method = triangulation::triangulate_weighted_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
 }
 
 /// Triangulates points of two views with the smallest sum of angular errors.
@@ -152,10 +165,8 @@ fn triangulate_angular<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_angular(motion, a, b)?.coords)
-    })
+    let method = triangulation::triangulate_angular;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
 }
 
 /// Triangulates points of two views with the smallest reprojection error.
@@ -182,7 +193,7 @@ fn triangulate_optimal<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = (Point2::from(*a), Point2::from(*b));
         Ok(triangulation::triangulate_optimal(&cam1.0, &cam2.0, &a, &b)?.coords)
     })
@@ -212,7 +223,7 @@ fn correct_matches<'py>(
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = triangulation::correct_matches(&f, &Point2::from(*a), &Point2::from(*b))?;
         Ok(Vector4::new(a.x, a.y, b.x, b.y))
     })

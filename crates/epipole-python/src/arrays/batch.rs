@@ -7,7 +7,7 @@
 use super::{Numbers, wrong_shape};
 use crate::errors::OrRaise;
 use crate::progress;
-use epipole::nalgebra::SVector;
+use epipole::nalgebra::{Matrix3, Point2, SVector};
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
@@ -190,6 +190,27 @@ impl<'a, 'py, const D: usize, const E: usize> Pairs<'a, 'py, D, E> {
         })?;
         give_rows::<F>(py, self.first.len(), values)
     }
+}
+
+impl<'py> Pairs<'_, 'py, 2, 2> {
+    /// Reads the arguments `pixel1` and `pixel2`.
+    pub(crate) fn pixels(pixel1: &Bound<'py, PyAny>, pixel2: &Bound<'py, PyAny>) -> PyResult<Self> {
+        Self::read(("pixel1", pixel1), ("pixel2", pixel2))
+    }
+}
+
+/// Computes the errors of the matches `pixel1`, `pixel2` by a matrix of two views.
+pub(crate) fn match_errors<'py>(
+    (name, matrix): (&str, &Bound<'py, PyAny>),
+    pixel1: &Bound<'py, PyAny>,
+    pixel2: &Bound<'py, PyAny>,
+    error: fn(&Matrix3<f64>, &Point2<f64>, &Point2<f64>) -> f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let matrix = super::matrix(name, matrix)?;
+    let pairs = Pairs::pixels(pixel1, pixel2)?;
+    pairs.numbers(pixel1.py(), |p, q| {
+        error(&matrix, &Point2::from(*p), &Point2::from(*q))
+    })
 }
 
 /// Ranges of rows; the duration of the first decides whether the others are copied.

@@ -1,7 +1,9 @@
 //! Distances, lines, epipoles; F and E from cameras and from each other.
 
 use super::relative_pose::SelectedPose;
-use crate::arrays::{Batch, Pairs, from_matrix, from_vector, matrix, points2, vector};
+use crate::arrays::{
+    Batch, Pairs, from_matrix, from_vector, match_errors, matrix, pixel_pairs, vector,
+};
 use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use epipole::epipolar::{self, Epipole};
@@ -32,10 +34,12 @@ pub(super) fn sampson_px<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        epipolar::sampson_px(&f, &Point2::from(*p), &Point2::from(*q))
-    })
+    match_errors(
+        ("fundamental", fundamental),
+        pixel1,
+        pixel2,
+        epipolar::sampson_px,
+    )
 }
 
 /// Computes the tangent Sampson errors of matches between cameras with any lens.
@@ -60,7 +64,7 @@ pub(super) fn tangent_sampson_px<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+    Pairs::pixels(pixel1, pixel2)?.numbers(pixel1.py(), |p, q| {
         let observation1 = camera1.0.observe(&Point2::from(*p));
         let observation2 = camera2.0.observe(&Point2::from(*q));
         match (observation1, observation2) {
@@ -89,10 +93,12 @@ pub(super) fn symmetric_epipolar_px<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        epipolar::symmetric_epipolar_px(&f, &Point2::from(*p), &Point2::from(*q))
-    })
+    match_errors(
+        ("fundamental", fundamental),
+        pixel1,
+        pixel2,
+        epipolar::symmetric_epipolar_px,
+    )
 }
 
 /// Returns the rows of the eight-point system: ``row @ F.ravel() == x2 @ F @ x1``.
@@ -291,7 +297,7 @@ pub(super) fn select_pose(
     k2: &Intrinsics,
 ) -> PyResult<SelectedPose> {
     let motions: Vec<_> = motions.into_iter().map(|motion| motion.0).collect();
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let selected = epipolar::select_pose(&motions, &pixels1, &pixels2, &k1.0, &k2.0).or_raise()?;
     Ok(SelectedPose {
         cam2_from_cam1: selected.cam2_from_cam1.into(),

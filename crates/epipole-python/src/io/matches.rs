@@ -1,7 +1,7 @@
 //! Files of matches and of points with their pixels.
 
 use super::source::{Source, format_of, write};
-use crate::arrays::{from_rows, points2};
+use crate::arrays::{from_rows, pixel_pairs};
 use crate::images::column;
 use crate::register::functions;
 use crate::sfm::wrapper::require_equal;
@@ -134,7 +134,7 @@ fn write_matches(
     ratios: Option<&Bound<'_, PyAny>>,
     layout: &str,
 ) -> PyResult<()> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let count = pixels1.len();
     require_equal(("pixels1", count), ("pixels2", pixels2.len()))?;
     let numbers = |name: &str, value: Option<&Bound<'_, PyAny>>| {

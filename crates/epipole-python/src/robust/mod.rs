@@ -1,5 +1,6 @@
 //! Robust estimation.
 
+mod estimate;
 mod least_median;
 mod line;
 mod model;
@@ -7,7 +8,10 @@ mod report;
 mod similarity;
 mod stepwise;
 
-pub(crate) use report::{RansacReport, estimate, stop_reason};
+pub(crate) use estimate::{
+    calibrated_estimator, estimate, estimate_matches, give_matrix, give_object, refine_matrix,
+};
+pub(crate) use report::{RansacReport, stop_reason};
 
 use crate::errors::OrRaise;
 use crate::options;

@@ -1,8 +1,6 @@
 //! Report of a robust estimation.
 
-use crate::progress;
 use crate::record::record;
-use epipole::progress::Monitor;
 use epipole::robust::{self, StopReason};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -86,21 +84,6 @@ pub(crate) fn stop_reason(stop: StopReason) -> String {
         StopReason::Interrupted => "interrupted",
     };
     name.to_owned()
-}
-
-/// Runs a robust estimation without the GIL and converts its report to Python objects.
-///
-/// * `model`: converts a model to a Python object
-///
-/// # Errors
-/// As [`progress::run`].
-pub(crate) fn estimate<'py, M: Send>(
-    py: Python<'py>,
-    progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&mut dyn Monitor) -> epipole::Result<robust::RansacReport<M>> + Send,
-    model: impl FnOnce(M) -> PyResult<Bound<'py, PyAny>>,
-) -> PyResult<RansacReport> {
-    RansacReport::give(py, progress::run(py, progress, work)?, model)
 }
 
 impl RansacReport {

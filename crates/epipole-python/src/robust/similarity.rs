@@ -1,9 +1,8 @@
 //! Similarities of the plane.
 
-use super::{RansacReport, estimate};
-use crate::arrays::{Batch, from_matrix, points2};
+use super::{RansacReport, estimate_matches, give_object};
+use crate::arrays::{Batch, from_matrix, pixel_pairs};
 use crate::errors::OrRaise;
-use crate::options;
 use crate::record::record;
 use epipole::nalgebra::Point2;
 use epipole::robust;
@@ -109,10 +108,8 @@ pub(super) fn fit_similarity(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
 ) -> PyResult<PlaneSimilarity> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    Ok(robust::fit_similarity(&pixels1, &pixels2)
-        .or_raise()?
-        .into())
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    Ok(robust::fit_similarity(&first, &second).or_raise()?.into())
 }
 
 /// Estimates a similarity from matches with outliers, by RANSAC.
@@ -142,18 +139,12 @@ pub(super) fn fit_similarity(
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 pub(super) fn estimate_similarity(
-    py: Python<'_>,
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    estimate(
-        py,
-        progress,
-        |monitor| robust::estimate_similarity(&pixels1, &pixels2, &options, monitor),
-        |model| Ok(Bound::new(py, PlaneSimilarity::from(model))?.into_any()),
-    )
+    let give = give_object::<_, PlaneSimilarity>;
+    let work = robust::estimate_similarity;
+    estimate_matches(pixels1, pixels2, progress, options, give, work)
 }

@@ -2,7 +2,7 @@
 
 use super::bundle::plain_options;
 use super::wrapper::give_indices;
-use crate::arrays::{from_rows, points2};
+use crate::arrays::{from_rows, pixel_pairs};
 use crate::camera::{Camera, RigidTransform};
 use crate::optim::LmReport;
 use crate::record::record;
@@ -78,7 +78,7 @@ pub(super) fn two_view_reconstruction(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<TwoViewReconstruction> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let options = options::read(plain_options(options)?.as_ref())?;
     let (cameras, motion) = ([&camera1.0, &camera2.0], &cam2_from_cam1.0);
     let found = progress::run(py, progress, |monitor| {
