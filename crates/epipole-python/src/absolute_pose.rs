@@ -76,7 +76,6 @@ impl AbsolutePoseWithFocal {
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, camera, *, progress=None, **options))]
 fn estimate_absolute_pose(
-    py: Python<'_>,
     points_in_world: &Bound<'_, PyAny>,
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
@@ -87,9 +86,15 @@ fn estimate_absolute_pose(
     let pixels = points2("pixels", pixels)?;
     let camera = &camera.0;
     let give = give_object::<_, RigidTransform>;
-    estimate(py, progress, options, give, |options, monitor| {
-        absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
-    })
+    estimate(
+        points_in_world.py(),
+        progress,
+        options,
+        give,
+        |options, monitor| {
+            absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
+        },
+    )
 }
 
 /// Estimates pose and focal length of a camera from points with outliers, by RANSAC.
@@ -122,7 +127,6 @@ fn estimate_absolute_pose(
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]
 fn estimate_absolute_pose_and_focal(
-    py: Python<'_>,
     points_in_world: &Bound<'_, PyAny>,
     pixels: &Bound<'_, PyAny>,
     principal: &Bound<'_, PyAny>,
@@ -133,11 +137,17 @@ fn estimate_absolute_pose_and_focal(
     let pixels = points2("pixels", pixels)?;
     let principal = Point2::from(vector("principal", principal)?);
     let give = give_object::<_, AbsolutePoseWithFocal>;
-    estimate(py, progress, options, give, |options, monitor| {
-        absolute_pose::estimate_absolute_pose_and_focal(
-            &points, &pixels, &principal, options, monitor,
-        )
-    })
+    estimate(
+        points_in_world.py(),
+        progress,
+        options,
+        give,
+        |options, monitor| {
+            absolute_pose::estimate_absolute_pose_and_focal(
+                &points, &pixels, &principal, options, monitor,
+            )
+        },
+    )
 }
 
 /// Computes the poses from three rays and their points.

@@ -95,10 +95,9 @@ fn estimate_depth_maps(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<DepthMap>> {
-    let options = options::read(options)?;
     let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
-    let maps = progress::run(py, progress, |monitor| {
-        mvs::estimate_depth_maps(&views, &options, monitor)
+    let maps = progress::run_with(py, progress, options, |options, monitor| {
+        mvs::estimate_depth_maps(&views, options, monitor)
     })?;
     Ok(maps.into_iter().map(DepthMap).collect())
 }
@@ -131,11 +130,10 @@ fn fuse_depth_maps<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let options = options::read(options)?;
     let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
     let maps: Vec<mvs::DepthMap> = maps.into_iter().map(|map| map.0).collect();
-    let cloud = progress::run(py, progress, |monitor| {
-        mvs::fuse_depth_maps(&views, &maps, &options, monitor)
+    let cloud = progress::run_with(py, progress, options, |options, monitor| {
+        mvs::fuse_depth_maps(&views, &maps, options, monitor)
     })?;
     give_cloud(py, &cloud)
 }

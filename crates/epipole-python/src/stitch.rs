@@ -1,6 +1,6 @@
 //! Panoramas.
 
-use crate::arrays::{from_matrix, from_rows, matrix, pixel_pairs};
+use crate::arrays::{from_matrix, from_points, matrix, pixel_pairs};
 use crate::camera::Intrinsics;
 use crate::errors::OrRaise;
 use crate::images::{from_rgb, rgb};
@@ -95,11 +95,7 @@ impl Overlap {
 
 impl Overlap {
     fn pixels<'py>(&self, py: Python<'py>, image: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.pixels[image]
-            .iter()
-            .map(|pixel| pixel.coords)
-            .collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.pixels[image])
     }
 }
 
@@ -235,9 +231,8 @@ fn find_overlap(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Overlap>> {
     let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
-    let options = options::read(options)?;
-    let overlap = progress::run(py, progress, |monitor| {
-        stitch::find_overlap(images, &pixels1, &pixels2, &options, monitor)
+    let overlap = progress::run_with(py, progress, options, |options, monitor| {
+        stitch::find_overlap(images, &pixels1, &pixels2, options, monitor)
     })?;
     Ok(overlap.map(Overlap))
 }

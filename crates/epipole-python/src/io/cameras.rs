@@ -218,8 +218,7 @@ fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>
     let py = source.py();
     let source = Source::read(source)?;
     let q = source.done(camera::read_q(&source.bytes))?;
-    let rows: Vec<_> = (0..4).map(|row| q.row(row).transpose()).collect();
-    from_rows(py, &rows)
+    from_rows(py, (0..4).map(|row| q.row(row).transpose()))
 }
 
 /// Writes cameras with all digits.

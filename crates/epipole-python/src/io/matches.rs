@@ -1,24 +1,16 @@
 //! Files of matches and of points with their pixels.
 
 use super::source::{Source, format_of, write};
-use crate::arrays::{from_rows, pixel_pairs};
+use crate::arrays::{from_points, pixel_pairs};
 use crate::images::column;
 use crate::register::functions;
 use crate::sfm::wrapper::require_equal;
-use epipole::nalgebra::{Point2, Point3};
 use epipole_io::matches::{self, MatchLayout};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
 /// Array of points.
 type Array<'py> = Bound<'py, PyArray2<f64>>;
-
-fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> {
-    from_rows(
-        py,
-        &points.iter().map(|point| point.coords).collect::<Vec<_>>(),
-    )
-}
 
 /// Reads matches of two images: ``u1 v1 u2 v2`` per line, pixels.
 ///
@@ -44,7 +36,7 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
     let py = source.py();
     let source = Source::read(source)?;
     let [pixels1, pixels2] = source.done(matches::read_matches(&source.bytes))?;
-    Ok((pixels(py, &pixels1)?, pixels(py, &pixels2)?))
+    Ok((from_points(py, &pixels1)?, from_points(py, &pixels2)?))
 }
 
 /// Reads points of an image: ``u v`` per line, pixels.
@@ -73,7 +65,7 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
 fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
     let py = source.py();
     let source = Source::read(source)?;
-    pixels(py, &source.done(matches::read_points(&source.bytes))?)
+    from_points(py, &source.done(matches::read_points(&source.bytes))?)
 }
 
 /// Reads world points with their pixels: ``x y z u v`` per line.
@@ -99,12 +91,7 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
     let py = source.py();
     let source = Source::read(source)?;
     let found = source.done(matches::read_points_with_pixels(&source.bytes))?;
-    let rows: Vec<_> = found
-        .1
-        .iter()
-        .map(|point: &Point3<f64>| point.coords)
-        .collect();
-    Ok((pixels(py, &found.0)?, from_rows(py, &rows)?))
+    Ok((from_points(py, &found.0)?, from_points(py, &found.1)?))
 }
 
 /// Writes matches, one per line: ``u1 v1 u2 v2``, then distance and ratio if given.

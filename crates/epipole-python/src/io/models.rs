@@ -3,7 +3,7 @@
 use super::clouds::give_cloud;
 use super::rig::Rig;
 use super::source::{Source, format_of, or_raise, os_error, path};
-use crate::arrays::{from_rows, from_vector, points2, points3};
+use crate::arrays::{from_points, from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, RigidTransform};
 use crate::progress;
 use crate::record::record;
@@ -99,8 +99,7 @@ impl ModelImage {
     /// Keypoints, pixels, shape (N, 2).
     #[getter]
     fn keypoints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.keypoints.iter().map(|pixel| pixel.coords).collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.keypoints)
     }
 
     /// Returns the center of the camera in the world, shape (3,).
@@ -253,13 +252,7 @@ impl Model {
     /// Points, shape (P, 3).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self
-            .0
-            .points
-            .iter()
-            .map(|point| point.position.coords)
-            .collect();
-        from_rows(py, &rows)
+        from_rows(py, self.0.points.iter().map(|point| point.position.coords))
     }
 
     /// Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint.

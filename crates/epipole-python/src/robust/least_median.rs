@@ -26,10 +26,7 @@ record! {
 impl LeastMedian {
     /// Supports ``LeastMedian[MyModel]`` in annotations.
     #[classmethod]
-    fn __class_getitem__<'py>(
-        cls: &Bound<'py, PyType>,
-        model: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn __class_getitem__(cls: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
         alias(cls, model)
     }
 }

@@ -40,10 +40,7 @@ record! {
 impl RansacReport {
     /// Supports ``RansacReport[RelativePose]`` in annotations.
     #[classmethod]
-    fn __class_getitem__<'py>(
-        cls: &Bound<'py, PyType>,
-        model: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn __class_getitem__(cls: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
         alias(cls, model)
     }
 
@@ -68,12 +65,9 @@ impl RansacReport {
 }
 
 /// Returns the generic alias of a class with its model type.
-pub(super) fn alias<'py>(
-    class: &Bound<'py, PyType>,
-    model: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn alias(class: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
     let types = class.py().import("types")?;
-    types.call_method1("GenericAlias", (class, model))
+    Ok(types.call_method1("GenericAlias", (class, model))?.unbind())
 }
 
 /// Returns the name of the reason.

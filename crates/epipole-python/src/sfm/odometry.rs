@@ -5,7 +5,7 @@ use super::incremental::SfmStep;
 use super::reconstruction::Reconstruction;
 use super::wrapper::wrapper;
 use crate::camera::{Camera, RigidTransform};
-use crate::steps::{take, with};
+use crate::steps::{self, Job, take};
 use crate::{options, progress};
 use epipole::feature::Match;
 use epipole::sfm;
@@ -130,10 +130,9 @@ pub(super) fn monocular_odometry(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<OdometryResult> {
-    let options = options::read(options)?;
     let input = &input.0;
-    let result = progress::run(py, progress, |monitor| {
-        sfm::monocular_odometry(input, &options, monitor)
+    let result = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::monocular_odometry(input, options, monitor)
     })?;
     Ok(OdometryResult(result))
 }
@@ -202,7 +201,7 @@ pub(super) fn stereo_odometry(
 
 /// Step-by-step `monocular_odometry` or `stereo_odometry`.
 #[pyclass(frozen, module = "epipole.sfm")]
-pub(super) struct Odometry(Mutex<Option<sfm::Odometry>>);
+pub(super) struct Odometry(Job<sfm::Odometry>);
 
 #[pymethods]
 impl Odometry {
@@ -233,12 +232,11 @@ impl Odometry {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let options = options::read(options)?;
         let input = &input.0;
-        let started = progress::run(py, progress, |monitor| {
-            sfm::Odometry::monocular(input, &options, monitor)
-        })?;
-        Ok(Self(Mutex::new(Some(started))))
+        let job = steps::start(py, progress, options, |options, monitor| {
+            sfm::Odometry::monocular(input, options, monitor)
+        });
+        Ok(Self(job?))
     }
 
     /// Starts with a stereo rig; see `stereo_odometry`.
@@ -311,9 +309,8 @@ impl Odometry {
     ///     If the job is finished, or another thread uses it.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
-        with(&self.0, |work| {
-            Ok(progress::run(py, progress, |monitor| work.step(monitor))?.map(SfmStep))
-        })
+        let step = steps::step(&self.0, py, progress, sfm::Odometry::step);
+        Ok(step?.map(SfmStep))
     }
 
     /// Ends the job and returns the path so far, an `OdometryResult`.
