@@ -14,13 +14,14 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::calibration::MarkerOptions::default())?;
     crate::options::declare(module, &epipole::calibration::CalibrationOptions::default())?;
     classes!(module:
-        board::Board, board::BoardDrawing, board::BoardView, find::BoardSearch, find::Marker,
-        find::MarkerDictionary, calibrate::CalibratedView, calibrate::CalibrationWarning,
-        calibrate::Calibration, calibrate::RigCalibration, Undistortion
+        board::{Board, BoardDrawing, BoardView},
+        find::{BoardSearch, Marker, MarkerDictionary},
+        calibrate::{CalibratedView, CalibrationWarning, Calibration, RigCalibration},
+        undistort::{Undistortion}
     );
     functions!(module:
-        find::find_board, find::detect_markers, find::render_board, calibrate::calibrate,
-        calibrate::calibrate_rig, calibrate::intrinsics_from_planes
+        find::{find_board, detect_markers, render_board},
+        calibrate::{calibrate, calibrate_rig, intrinsics_from_planes}
     );
     Ok(())
 }

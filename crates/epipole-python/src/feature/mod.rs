@@ -26,17 +26,28 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::feature::MatchOptions::default())?;
     crate::options::declare(module, &epipole::feature::TrackOptions::default())?;
     classes!(module:
-        keypoints::Keypoints, descriptors::Features, matching::Matches, matching::Neighbors,
-        scale_space::ScaleOctave, scale_space::ScaleSpace, tensor::StructureTensor,
-        window::ShiftSurface, window::WindowTensor, track::Tracks
+        keypoints::{Keypoints},
+        descriptors::{Features},
+        matching::{Matches, Neighbors},
+        scale_space::{ScaleOctave, ScaleSpace},
+        tensor::{StructureTensor},
+        window::{ShiftSurface, WindowTensor},
+        track::{Tracks}
     );
     functions!(module:
-        detect::photo_to_gray, detect::detect_features, detect::detect_sift, detect::detect_orb,
-        detect::describe_sift, detect::sift_directions, detect::describe_patches,
-        scale_space::scale_space, corners::harris_response, corners::min_eigenvalue_response,
-        corners::good_features_to_track, corners::non_maximum_suppression, corners::refine_corners,
-        tensor::structure_tensor, window::shift_surface, matching::match_descriptors,
-        matching::nearest_two, matching::nearest_few, track::track_lucas_kanade
+        detect::{
+            photo_to_gray, detect_features, detect_sift, detect_orb, describe_sift, sift_directions,
+            describe_patches
+        },
+        scale_space::{scale_space},
+        corners::{
+            harris_response, min_eigenvalue_response, good_features_to_track,
+            non_maximum_suppression, refine_corners
+        },
+        tensor::{structure_tensor},
+        window::{shift_surface},
+        matching::{match_descriptors, nearest_two, nearest_few},
+        track::{track_lucas_kanade}
     );
     Ok(())
 }

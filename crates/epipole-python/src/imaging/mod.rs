@@ -24,16 +24,20 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let [red, green, blue] = exact.map(|weight| weight.unwrap_or(f64::NAN));
         module.add(name, (red, green, blue))?;
     }
-    classes!(module: gradient::Gradient, integral::IntegralImage);
+    classes!(module: gradient::{Gradient}, integral::{IntegralImage});
     functions!(module:
-        convert::gray_to_f32, convert::gray_to_u8, convert::rgb_to_gray, convert::rgb_to_gray_f32,
-        filter::correlate, filter::separable_filter, filter::noise_gain, filter::gaussian_kernel,
-        filter::gaussian_derivative_kernels, filter::gaussian_blur, filter::box_filter,
-        gradient::derivative, gradient::centered_difference, gradient::sobel,
-        gradient::gaussian_derivative, pyramid::pyramid_down, pyramid::pyramid_up,
-        pyramid::gaussian_pyramid, pyramid::laplacian_pyramid, pyramid::from_laplacian_pyramid,
-        pyramid::sharpness, resize::resize, resize::reduce_rgb, resize::sample_bilinear,
-        resize::sample_bicubic, warp::warp_affine, warp::warp_perspective
+        convert::{gray_to_f32, gray_to_u8, rgb_to_gray, rgb_to_gray_f32},
+        filter::{
+            correlate, separable_filter, noise_gain, gaussian_kernel, gaussian_derivative_kernels,
+            gaussian_blur, box_filter
+        },
+        gradient::{derivative, centered_difference, sobel, gaussian_derivative},
+        pyramid::{
+            pyramid_down, pyramid_up, gaussian_pyramid, laplacian_pyramid, from_laplacian_pyramid,
+            sharpness
+        },
+        resize::{resize, reduce_rgb, sample_bilinear, sample_bicubic},
+        warp::{warp_affine, warp_perspective}
     );
     Ok(())
 }

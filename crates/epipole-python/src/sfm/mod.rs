@@ -37,23 +37,32 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         &epipole::sfm::TwoViewReconstructionOptions::default(),
     )?;
     classes!(module:
-        similarity::Similarity3, alignment::ErrorStatistics, alignment::RelativePoseError,
-        bundle::Sensor, bundle::Bundle, BalProblem, images::PositionPrior, SfmImage,
-        images::PairMatches, images::SfmInput, photos::Photo, photo_features::PhotoFeatures,
-        Reconstruction, reconstruction::Localization, incremental::SfmStep, incremental::SfmResult,
-        incremental::IncrementalReconstruction, incremental::WhyUnregistered,
-        odometry::OdometryResult, odometry::Odometry, PoseGraph, pose_graph::PoseGraphReport,
-        loops::LoopClosure, loops::ClosedPath, tracks::VerifiedPair, two_view::TwoViewReconstruction
+        similarity::{Similarity3},
+        alignment::{ErrorStatistics, RelativePoseError},
+        bundle::{Sensor, Bundle},
+        bal::{BalProblem},
+        images::{PositionPrior, SfmImage, PairMatches, SfmInput},
+        photos::{Photo},
+        photo_features::{PhotoFeatures},
+        reconstruction::{Reconstruction, Localization},
+        incremental::{SfmStep, SfmResult, IncrementalReconstruction, WhyUnregistered},
+        odometry::{OdometryResult, Odometry},
+        pose_graph::{PoseGraph, PoseGraphReport},
+        loops::{LoopClosure, ClosedPath},
+        tracks::{VerifiedPair},
+        two_view::{TwoViewReconstruction}
     );
     functions!(module:
-        alignment::align_points, alignment::absolute_trajectory_error,
-        alignment::relative_pose_error, bundle::adjust_bundle, bal::adjust_bal,
-        incremental::reconstruct, incremental::why_unregistered, known_poses::triangulate_tracks,
-        photos::photo_features, photos::match_features, photos::match_photos,
-        photos::match_rectified, photos::reconstruct_photos, odometry::monocular_odometry,
-        odometry::stereo_odometry, loops::close_loops, loops::estimate_similarity_of_points,
-        loops::average_rotations, tracks::build_tracks, tracks::verify_matches,
-        two_view::two_view_reconstruction
+        alignment::{align_points, absolute_trajectory_error, relative_pose_error},
+        bundle::{adjust_bundle},
+        bal::{adjust_bal},
+        incremental::{reconstruct, why_unregistered},
+        known_poses::{triangulate_tracks},
+        photos::{photo_features, match_features, match_photos, match_rectified, reconstruct_photos},
+        odometry::{monocular_odometry, stereo_odometry},
+        loops::{close_loops, estimate_similarity_of_points, average_rotations},
+        tracks::{build_tracks, verify_matches},
+        two_view::{two_view_reconstruction}
     );
     Ok(())
 }

@@ -18,14 +18,18 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::stereo::StereoBm::default())?;
     crate::options::declare(module, &epipole::stereo::StereoSgm::default())?;
     classes!(module:
-        matcher::StereoBm, matcher::StereoSgm, depth::DepthInterval, depth::PointCloud,
-        pixel_map::PixelMap, rectify::PixelRect, rectify::Rectification, pair::RectifiedPair,
-        uncalibrated::UncalibratedRectification
+        matcher::{StereoBm, StereoSgm},
+        depth::{DepthInterval, PointCloud},
+        pixel_map::{PixelMap},
+        rectify::{PixelRect, Rectification},
+        pair::{RectifiedPair},
+        uncalibrated::{UncalibratedRectification}
     );
     functions!(module:
-        rectify::rectify_calibrated, rectify::q_from_rig, uncalibrated::rectify_uncalibrated,
-        disparity::remove_speckles, disparity::fill_gaps, depth::depth_from_disparity,
-        depth::depth_interval, depth::depth_image, depth::point_cloud
+        rectify::{rectify_calibrated, q_from_rig},
+        uncalibrated::{rectify_uncalibrated},
+        disparity::{remove_speckles, fill_gaps},
+        depth::{depth_from_disparity, depth_interval, depth_image, point_cloud}
     );
     Ok(())
 }
