@@ -47,6 +47,18 @@ impl AbsolutePoseWithFocal {
     }
 }
 
+/// Points in the world and their pixels.
+type Correspondences = (Vec<Point3<f64>>, Vec<Point2<f64>>);
+
+/// Reads the arguments `points_in_world` and `pixels`.
+fn points_with_pixels(
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+) -> PyResult<Correspondences> {
+    let points = points3("points_in_world", points_in_world)?;
+    Ok((points, points2("pixels", pixels)?))
+}
+
 /// Estimates the pose of a calibrated camera from points with outliers, by RANSAC.
 ///
 /// Parameters
@@ -82,19 +94,13 @@ fn estimate_absolute_pose(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let camera = &camera.0;
     let give = give_object::<_, RigidTransform>;
-    estimate(
-        points_in_world.py(),
-        progress,
-        options,
-        give,
-        |options, monitor| {
-            absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
-        },
-    )
+    let py = points_in_world.py();
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
+    })
 }
 
 /// Estimates pose and focal length of a camera from points with outliers, by RANSAC.
@@ -133,21 +139,15 @@ fn estimate_absolute_pose_and_focal(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let principal = Point2::from(vector("principal", principal)?);
     let give = give_object::<_, AbsolutePoseWithFocal>;
-    estimate(
-        points_in_world.py(),
-        progress,
-        options,
-        give,
-        |options, monitor| {
-            absolute_pose::estimate_absolute_pose_and_focal(
-                &points, &pixels, &principal, options, monitor,
-            )
-        },
-    )
+    let py = points_in_world.py();
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose_and_focal(
+            &points, &pixels, &principal, options, monitor,
+        )
+    })
 }
 
 /// Computes the poses from three rays and their points.
@@ -226,8 +226,7 @@ fn pose_dlt(
     pixels: &Bound<'_, PyAny>,
     intrinsics: &Intrinsics,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     Ok(absolute_pose::pose_dlt(&points, &pixels, &intrinsics.0)
         .or_raise()?
         .into())
@@ -259,8 +258,7 @@ fn fit_absolute_pose(
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     Ok(
         absolute_pose::fit_absolute_pose(&points, &pixels, &camera.0)
             .or_raise()?
@@ -295,8 +293,7 @@ fn find_flipped_pose(
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
 ) -> PyResult<Option<RigidTransform>> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let pose = &cam_from_world.0;
     let flipped = absolute_pose::find_flipped_pose(pose, &points, &pixels, &camera.0);
     Ok(flipped.or_raise()?.map(RigidTransform::from))
@@ -335,8 +332,7 @@ fn refine_absolute_pose(
     camera: &Camera,
     loss: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let loss = options::loss(loss)?;
     let pose = &cam_from_world.0;
     let refined = absolute_pose::refine_absolute_pose(pose, &points, &pixels, &camera.0, loss);

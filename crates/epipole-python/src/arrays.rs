@@ -5,7 +5,7 @@
 
 mod batch;
 
-pub(crate) use batch::{Batch, Pairs, match_errors};
+pub(crate) use batch::{Batch, Pairs, match_error};
 
 use epipole::nalgebra;
 use nalgebra::{Matrix3, OPoint, Point2, Point3, SMatrix, SVector};

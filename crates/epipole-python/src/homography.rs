@@ -1,20 +1,18 @@
 //! Homographies.
 
 use crate::arrays::{
-    Batch, exact_points, from_matrices, from_matrix, match_errors, matrix, pixel_pairs, vector,
+    Batch, exact_points, from_matrices, from_matrix, match_error, matrix, pixel_pairs, vector,
 };
 use crate::camera::{Intrinsics, RigidTransform};
 use crate::errors::OrRaise;
+use crate::options;
 use crate::record::record;
 use crate::register::{classes, functions};
-use crate::robust::{
-    RansacReport, calibrated_estimator, estimate_matches, give_matrix, refine_matrix,
-};
+use crate::robust::{RansacReport, estimator, give_matrix};
 use epipole::nalgebra::{Matrix3, Point2};
 use epipole::{Error, homography};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 record! {
     /// Motion and plane of a homography.
@@ -26,45 +24,39 @@ record! {
     }
 }
 
-/// Estimates a homography from matches with outliers, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of ndarray
-///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 4 different matches.
-/// epipole.DegenerateError
-///     If all pixels of an image are on a line.
-/// epipole.NoConsensusError
-///     If no homography has 4 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
-fn estimate_homography(
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let work = homography::estimate_homography;
-    estimate_matches(pixels1, pixels2, progress, options, give_matrix, work)
+estimator! {
+    /// Estimates a homography from matches with outliers, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of ndarray
+    ///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 4 different matches.
+    /// epipole.DegenerateError
+    ///     If all pixels of an image are on a line.
+    /// epipole.NoConsensusError
+    ///     If no homography has 4 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_homography(pixels1, pixels2) -> PyResult<RansacReport> {
+        homography::estimate_homography, give_matrix
+    }
 }
 
-calibrated_estimator! {
+estimator! {
     /// Estimates a homography between the rays of two calibrated cameras, by RANSAC.
     ///
     /// Parameters
@@ -92,7 +84,11 @@ calibrated_estimator! {
     ///     If no homography has 4 inliers.
     /// ValueError
     ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-    estimate_homography_calibrated: homography::estimate_homography_calibrated, give_matrix
+    fn estimate_homography_calibrated(
+        pixels1, pixels2, camera1, camera2
+    ) -> PyResult<RansacReport> {
+        homography::estimate_homography_calibrated, give_matrix
+    }
 }
 
 /// Computes the homographies of four matches.
@@ -175,8 +171,11 @@ fn refine_homography<'py>(
     pixels2: &Bound<'py, PyAny>,
     loss: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let refine = homography::refine_homography;
-    refine_matrix(("homography", homography), pixels1, pixels2, loss, refine)
+    let h = matrix("homography", homography)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    let loss = options::loss(loss)?;
+    let refined = homography::refine_homography(&h, &first, &second, loss).or_raise()?;
+    from_matrix(pixels1.py(), &refined)
 }
 
 /// Maps pixels of image 1 to image 2 by a homography.
@@ -216,54 +215,38 @@ fn transfer<'py>(
     Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), transfer)
 }
 
-/// Computes the distances in image 2 between mapped pixels and their matches.
-///
-/// Parameters
-/// ----------
-/// homography : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-fn transfer_error_px<'py>(
-    homography: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match_errors(
-        ("homography", homography),
-        pixel1,
-        pixel2,
-        homography::transfer_error_px,
-    )
+match_error! {
+    /// Computes the distances in image 2 between mapped pixels and their matches.
+    ///
+    /// Parameters
+    /// ----------
+    /// homography : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn transfer_error_px(homography, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        homography::transfer_error_px
+    }
 }
 
-/// Computes the Sampson distances of matches from a homography.
-///
-/// Parameters
-/// ----------
-/// homography : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-fn homography_sampson_px<'py>(
-    homography: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match_errors(
-        ("homography", homography),
-        pixel1,
-        pixel2,
-        homography::homography_sampson_px,
-    )
+match_error! {
+    /// Computes the Sampson distances of matches from a homography.
+    ///
+    /// Parameters
+    /// ----------
+    /// homography : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn homography_sampson_px(homography, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        homography::homography_sampson_px
+    }
 }
 
 /// Decomposes a homography into its possible motions and planes.

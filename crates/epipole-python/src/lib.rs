@@ -13,7 +13,7 @@
 //! | [`options`] | keyword options to the library's option structs |
 //! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
 //! | [`record`] | `repr`, equality and pickling of classes |
-//! | [`register`] | lists of the classes and functions of a module |
+//! | [`register`] | registration of classes and functions in a module |
 //! | [`threads`] | number of threads for a block of Python |
 
 mod absolute_pose;

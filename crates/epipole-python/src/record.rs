@@ -118,7 +118,7 @@ macro_rules! shown_class {
     };
 }
 
-/// Implements what `shown_class` does, and `__eq__` by the attributes.
+/// Implements everything of `shown_class`, and `__eq__` by the attributes.
 macro_rules! plain_class {
     ($class:ident: $($field:ident),+) => {
         $crate::record::shown_class!($class: $($field),+);

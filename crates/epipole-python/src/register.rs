@@ -1,6 +1,6 @@
-//! Lists of the classes and functions of a module.
+//! Registration of classes and functions in a module.
 
-/// Adds classes to a module, by file if there are several.
+/// Adds classes to a module, listed by file if it has several.
 macro_rules! classes {
     ($module:ident: $($file:ident::{$($class:ident),+}),+) => {
         $($($module.add_class::<$file::$class>()?;)+)+
@@ -10,7 +10,7 @@ macro_rules! classes {
     };
 }
 
-/// Adds functions to a module, by file if there are several.
+/// Adds functions to a module, listed by file if it has several.
 macro_rules! functions {
     ($module:ident: $($file:ident::{$($function:ident),+}),+) => {
         $($($module.add_function(wrap_pyfunction!($file::$function, $module)?)?;)+)+

@@ -60,7 +60,7 @@ fn triangulate_rays<'py>(
     cam2_from_cam1: &RigidTransform,
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
-    method: impl Fn(
+    triangulate: impl Fn(
         &camera::RigidTransform,
         &Vector3<f64>,
         &Vector3<f64>,
@@ -69,7 +69,7 @@ fn triangulate_rays<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let motion = &cam2_from_cam1.0;
     let pairs = Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?;
-    pairs.vectors(ray1.py(), |a, b| Ok(method(motion, a, b)?.coords))
+    pairs.vectors(ray1.py(), |a, b| Ok(triangulate(motion, a, b)?.coords))
 }
 
 /// Triangulates points of two views: the midpoints where rays are nearest to each other.
@@ -105,8 +105,8 @@ fn triangulate_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let method = triangulation::triangulate_midpoint;
-    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
+    let triangulate = triangulation::triangulate_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views: midpoints of rays, weighted by inverse depth.
@@ -135,8 +135,8 @@ fn triangulate_weighted_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let method = triangulation::triangulate_weighted_midpoint;
-    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
+    let triangulate = triangulation::triangulate_weighted_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views with the smallest sum of angular errors.
@@ -165,8 +165,8 @@ fn triangulate_angular<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let method = triangulation::triangulate_angular;
-    triangulate_rays(cam2_from_cam1, ray1, ray2, method)
+    let triangulate = triangulation::triangulate_angular;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views with the smallest reprojection error.

@@ -7,7 +7,7 @@ use crate::options;
 use crate::progress;
 use crate::record::record;
 use crate::register::{classes, functions};
-use crate::robust::{calibrated_estimator, give_matrix, stop_reason};
+use crate::robust::{RansacReport, estimator, give_matrix, stop_reason};
 use epipole::nalgebra::{Matrix3, Point2};
 use epipole::two_view::{self, Configuration, TwoViewModel, TwoViewOptions};
 use numpy::prelude::*;
@@ -228,7 +228,7 @@ fn estimate_two_view_calibrated(
     report(pixels1.py(), found?)
 }
 
-calibrated_estimator! {
+estimator! {
     /// Estimates the rotation between two calibrated views from the same position, by RANSAC.
     ///
     /// Parameters
@@ -254,7 +254,9 @@ calibrated_estimator! {
     ///     If no rotation has 2 inliers.
     /// ValueError
     ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-    estimate_rotation: two_view::estimate_rotation, give_matrix
+    fn estimate_rotation(pixels1, pixels2, camera1, camera2) -> PyResult<RansacReport> {
+        two_view::estimate_rotation, give_matrix
+    }
 }
 
 /// Looks for a configuration that explains the inliers.
@@ -301,14 +303,8 @@ fn find_degeneracy(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Degeneracy>> {
-    let found = find(
-        pixels1,
-        pixels2,
-        inliers,
-        options,
-        two_view::find_degeneracy,
-    )?;
-    Ok(found.map(degeneracy))
+    let look = two_view::find_degeneracy;
+    Ok(find(pixels1, pixels2, inliers, options, look)?.map(degeneracy))
 }
 
 /// Checks whether nearly all inliers are at the same pixel in both images.
@@ -341,8 +337,8 @@ fn find_unmoved(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Degeneracy>> {
-    let found = find(pixels1, pixels2, inliers, options, two_view::find_unmoved)?;
-    Ok(found.map(degeneracy))
+    let look = two_view::find_unmoved;
+    Ok(find(pixels1, pixels2, inliers, options, look)?.map(degeneracy))
 }
 
 /// Finds a rotation that explains nearly all inliers of calibrated views.
@@ -373,15 +369,9 @@ fn find_explaining_rotation(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<ExplainingRotation>> {
     let cameras = [&camera1.0, &camera2.0];
-    let found = find(
-        pixels1,
-        pixels2,
-        inliers,
-        options,
-        |first, second, inliers, options| {
-            two_view::find_explaining_rotation(first, second, cameras, inliers, options)
-        },
-    )?;
+    let found = find(pixels1, pixels2, inliers, options, |p, q, mask, options| {
+        two_view::find_explaining_rotation(p, q, cameras, mask, options)
+    })?;
     Ok(found.map(|found_rotation| ExplainingRotation {
         cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
         num_explained: found_rotation.num_explained,
@@ -417,15 +407,9 @@ fn find_rotation_and_focal(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<RotationAndFocal>> {
     let cameras = [&camera1.0, &camera2.0];
-    let found = find(
-        pixels1,
-        pixels2,
-        inliers,
-        options,
-        |first, second, inliers, options| {
-            two_view::find_rotation_and_focal(first, second, cameras, inliers, options)
-        },
-    )?;
+    let found = find(pixels1, pixels2, inliers, options, |p, q, mask, options| {
+        two_view::find_rotation_and_focal(p, q, cameras, mask, options)
+    })?;
     Ok(found.map(|found_rotation| RotationAndFocal {
         cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
         focal_factor: found_rotation.focal_factor,

@@ -7,7 +7,7 @@
 use super::{Numbers, wrong_shape};
 use crate::errors::OrRaise;
 use crate::progress;
-use epipole::nalgebra::{Matrix3, Point2, SVector};
+use epipole::nalgebra::SVector;
 use numpy::PyArray1;
 use numpy::prelude::*;
 use pyo3::exceptions::PyValueError;
@@ -199,19 +199,27 @@ impl<'py> Pairs<'_, 'py, 2, 2> {
     }
 }
 
-/// Computes the errors of the matches `pixel1`, `pixel2` by a matrix of two views.
-pub(crate) fn match_errors<'py>(
-    (name, matrix): (&str, &Bound<'py, PyAny>),
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-    error: fn(&Matrix3<f64>, &Point2<f64>, &Point2<f64>) -> f64,
-) -> PyResult<Bound<'py, PyAny>> {
-    let matrix = super::matrix(name, matrix)?;
-    let pairs = Pairs::pixels(pixel1, pixel2)?;
-    pairs.numbers(pixel1.py(), |p, q| {
-        error(&matrix, &Point2::from(*p), &Point2::from(*q))
-    })
+/// Defines the Python function of an error of matches by a matrix of two views.
+macro_rules! match_error {
+    (
+        $(#[doc = $doc:literal])*
+        fn $name:ident($matrix:ident, pixel1, pixel2) -> $result:ty { $error:path }
+    ) => {
+        $(#[doc = $doc])*
+        #[pyfunction]
+        pub(crate) fn $name<'py>(
+            $matrix: &Bound<'py, PyAny>,
+            pixel1: &Bound<'py, PyAny>,
+            pixel2: &Bound<'py, PyAny>,
+        ) -> $result {
+            let matrix = $crate::arrays::matrix(stringify!($matrix), $matrix)?;
+            let pairs = $crate::arrays::Pairs::pixels(pixel1, pixel2)?;
+            pairs.numbers(pixel1.py(), |p, q| $error(&matrix, &(*p).into(), &(*q).into()))
+        }
+    };
 }
+
+pub(crate) use match_error;
 
 /// Ranges of rows; the duration of the first decides whether the others are copied.
 struct Blocks {

@@ -3,54 +3,46 @@
 use super::relative_pose::{PoseWithFocal, RelativePose};
 use crate::arrays::{pixel_pairs, vector};
 use crate::camera::Camera;
-use crate::robust::{
-    RansacReport, calibrated_estimator, estimate, estimate_matches, give_matrix, give_object,
-};
+use crate::robust::{RansacReport, estimate, estimator, give_matrix, give_object};
 use epipole::epipolar;
 use epipole::nalgebra::Point2;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Estimates a fundamental matrix from matches with outliers, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of ndarray
-///     Its model is F, shape (3, 3), with ``x2 @ F @ x1 == 0`` and unit norm.
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 7 different matches.
-/// epipole.DegenerateError
-///     If all pixels of an image are on a line.
-/// epipole.NoConsensusError
-///     If no matrix has 7 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
-pub(super) fn estimate_fundamental(
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let work = epipolar::estimate_fundamental;
-    estimate_matches(pixels1, pixels2, progress, options, give_matrix, work)
+estimator! {
+    /// Estimates a fundamental matrix from matches with outliers, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of ndarray
+    ///     Its model is F, shape (3, 3), with ``x2 @ F @ x1 == 0`` and unit norm.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 7 different matches.
+    /// epipole.DegenerateError
+    ///     If all pixels of an image are on a line.
+    /// epipole.NoConsensusError
+    ///     If no matrix has 7 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_fundamental(pixels1, pixels2) -> PyResult<RansacReport> {
+        epipolar::estimate_fundamental, give_matrix
+    }
 }
 
-calibrated_estimator! {
+estimator! {
     /// Estimates an essential matrix from matches with outliers, by RANSAC.
     ///
     /// Parameters
@@ -78,10 +70,12 @@ calibrated_estimator! {
     ///     If no matrix has 5 inliers.
     /// ValueError
     ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-    estimate_essential: epipolar::estimate_essential, give_matrix
+    fn estimate_essential(pixels1, pixels2, camera1, camera2) -> PyResult<RansacReport> {
+        epipolar::estimate_essential, give_matrix
+    }
 }
 
-calibrated_estimator! {
+estimator! {
     /// Estimates the relative pose of two calibrated cameras from matches with outliers, by RANSAC.
     ///
     /// Parameters
@@ -109,7 +103,9 @@ calibrated_estimator! {
     ///     If no pose has 5 inliers.
     /// ValueError
     ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-    estimate_relative_pose: epipolar::estimate_relative_pose, give_object::<_, RelativePose>
+    fn estimate_relative_pose(pixels1, pixels2, camera1, camera2) -> PyResult<RansacReport> {
+        epipolar::estimate_relative_pose, give_object::<_, RelativePose>
+    }
 }
 
 /// Estimates the relative pose of two calibrated cameras with known gravity, by RANSAC.

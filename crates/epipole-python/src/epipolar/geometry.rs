@@ -2,7 +2,7 @@
 
 use super::relative_pose::SelectedPose;
 use crate::arrays::{
-    Batch, Pairs, from_matrix, from_vector, match_errors, matrix, pixel_pairs, vector,
+    Batch, Pairs, from_matrix, from_vector, match_error, matrix, pixel_pairs, vector,
 };
 use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
@@ -11,35 +11,27 @@ use epipole::nalgebra::{Matrix3, Point2, SVector};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Computes the Sampson distances of matches from a fundamental matrix.
-///
-/// Parameters
-/// ----------
-/// fundamental : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-///
-/// Examples
-/// --------
-/// >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
-/// >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
-/// array([0., 0.])
-#[pyfunction]
-pub(super) fn sampson_px<'py>(
-    fundamental: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match_errors(
-        ("fundamental", fundamental),
-        pixel1,
-        pixel2,
-        epipolar::sampson_px,
-    )
+match_error! {
+    /// Computes the Sampson distances of matches from a fundamental matrix.
+    ///
+    /// Parameters
+    /// ----------
+    /// fundamental : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    ///
+    /// Examples
+    /// --------
+    /// >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
+    /// >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
+    /// array([0., 0.])
+    fn sampson_px(fundamental, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        epipolar::sampson_px
+    }
 }
 
 /// Computes the tangent Sampson errors of matches between cameras with any lens.
@@ -76,29 +68,21 @@ pub(super) fn tangent_sampson_px<'py>(
     })
 }
 
-/// Computes the symmetric epipolar distances of matches from a fundamental matrix.
-///
-/// Parameters
-/// ----------
-/// fundamental : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-pub(super) fn symmetric_epipolar_px<'py>(
-    fundamental: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match_errors(
-        ("fundamental", fundamental),
-        pixel1,
-        pixel2,
-        epipolar::symmetric_epipolar_px,
-    )
+match_error! {
+    /// Computes the symmetric epipolar distances of matches from a fundamental matrix.
+    ///
+    /// Parameters
+    /// ----------
+    /// fundamental : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn symmetric_epipolar_px(fundamental, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        epipolar::symmetric_epipolar_px
+    }
 }
 
 /// Returns the rows of the eight-point system: ``row @ F.ravel() == x2 @ F @ x1``.
@@ -210,6 +194,14 @@ pub(super) fn epipoles<'py>(
     Ok((homogeneous(e1), homogeneous(e2)))
 }
 
+/// Computes one matrix from another, the argument `name`.
+fn convert<'py>(
+    (name, value): (&str, &Bound<'py, PyAny>),
+    compute: impl FnOnce(&Matrix3<f64>) -> epipole::Result<Matrix3<f64>>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    from_matrix(value.py(), &compute(&matrix(name, value)?).or_raise()?)
+}
+
 /// Returns the nearest matrix of rank 2, with unit norm.
 ///
 /// Parameters
@@ -223,8 +215,7 @@ pub(super) fn epipoles<'py>(
 pub(super) fn enforce_rank2<'py>(
     matrix: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let m = crate::arrays::matrix("matrix", matrix)?;
-    from_matrix(matrix.py(), &epipolar::enforce_rank2(&m).or_raise()?)
+    convert(("matrix", matrix), epipolar::enforce_rank2)
 }
 
 /// Returns the nearest essential matrix, with unit norm.
@@ -245,8 +236,7 @@ pub(super) fn enforce_rank2<'py>(
 pub(super) fn project_to_essential<'py>(
     matrix: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let m = crate::arrays::matrix("matrix", matrix)?;
-    from_matrix(matrix.py(), &epipolar::project_to_essential(&m).or_raise()?)
+    convert(("matrix", matrix), epipolar::project_to_essential)
 }
 
 /// Decomposes an essential matrix into its four motions.
@@ -378,9 +368,9 @@ pub(super) fn fundamental_from_essential<'py>(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let e = matrix("essential", essential)?;
-    let f = epipolar::fundamental_from_essential(&e, &k1.0, &k2.0).or_raise()?;
-    from_matrix(essential.py(), &f)
+    convert(("essential", essential), |e| {
+        epipolar::fundamental_from_essential(e, &k1.0, &k2.0)
+    })
 }
 
 /// Computes the essential matrix ``K2.T @ F @ K1``, with unit norm.
@@ -404,9 +394,9 @@ pub(super) fn essential_from_fundamental<'py>(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let f = matrix("fundamental", fundamental)?;
-    let e = epipolar::essential_from_fundamental(&f, &k1.0, &k2.0).or_raise()?;
-    from_matrix(fundamental.py(), &e)
+    convert(("fundamental", fundamental), |f| {
+        epipolar::essential_from_fundamental(f, &k1.0, &k2.0)
+    })
 }
 
 /// Computes the focal lengths of two cameras from their fundamental matrix.

@@ -2,13 +2,12 @@
 
 use super::relative_pose::{EssentialWithFocal, RelativePose};
 use crate::arrays::{
-    exact_points, exactly, from_matrices, from_matrix, pixel_pairs, vector, vectors,
+    exact_points, exactly, from_matrices, from_matrix, matrix, pixel_pairs, vector, vectors,
 };
 use crate::camera::{Camera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
-use crate::robust::refine_matrix;
 use epipole::epipolar;
 use epipole::nalgebra::Point2;
 use numpy::{PyArray1, PyArray2, PyArray3};
@@ -282,8 +281,11 @@ pub(super) fn refine_fundamental<'py>(
     pixels2: &Bound<'py, PyAny>,
     loss: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let refine = epipolar::refine_fundamental;
-    refine_matrix(("fundamental", fundamental), pixels1, pixels2, loss, refine)
+    let f = matrix("fundamental", fundamental)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    let loss = options::loss(loss)?;
+    let refined = epipolar::refine_fundamental(&f, &first, &second, loss).or_raise()?;
+    from_matrix(pixels1.py(), &refined)
 }
 
 /// Refines a relative pose by minimizing the Sampson errors of matches.

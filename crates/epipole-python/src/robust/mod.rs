@@ -8,9 +8,7 @@ mod report;
 mod similarity;
 mod stepwise;
 
-pub(crate) use estimate::{
-    calibrated_estimator, estimate, estimate_matches, give_matrix, give_object, refine_matrix,
-};
+pub(crate) use estimate::{estimate, estimator, give_matrix, give_object};
 pub(crate) use report::{RansacReport, stop_reason};
 
 use crate::errors::OrRaise;
@@ -115,8 +113,10 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     options::declare(module, &RansacOptions::default())?;
     options::declare(module, &LeastMedianOptions::default())?;
     classes!(module:
-        RansacReport, least_median::LeastMedian, stepwise::Ransac, stepwise::Trial,
-        similarity::PlaneSimilarity
+        report::{RansacReport},
+        least_median::{LeastMedian},
+        stepwise::{Ransac, Trial},
+        similarity::{PlaneSimilarity}
     );
     functions!(module:
         num_trials_with_replacement, num_trials_without_replacement, log10_false_alarms,

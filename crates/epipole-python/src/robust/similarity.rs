@@ -1,6 +1,6 @@
 //! Similarities of the plane.
 
-use super::{RansacReport, estimate_matches, give_object};
+use super::{RansacReport, estimator, give_object};
 use crate::arrays::{Batch, from_matrix, pixel_pairs};
 use crate::errors::OrRaise;
 use crate::record::record;
@@ -8,7 +8,6 @@ use epipole::nalgebra::Point2;
 use epipole::robust;
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 record! {
     /// Rotation, scale and shift in the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
@@ -112,39 +111,32 @@ pub(super) fn fit_similarity(
     Ok(robust::fit_similarity(&first, &second).or_raise()?.into())
 }
 
-/// Estimates a similarity from matches with outliers, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of PlaneSimilarity
-///     Its model is a `PlaneSimilarity`.
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 2 different matches.
-/// epipole.NoConsensusError
-///     If no similarity has 2 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
-pub(super) fn estimate_similarity(
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let give = give_object::<_, PlaneSimilarity>;
-    let work = robust::estimate_similarity;
-    estimate_matches(pixels1, pixels2, progress, options, give, work)
+estimator! {
+    /// Estimates a similarity from matches with outliers, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of PlaneSimilarity
+    ///     Its model is a `PlaneSimilarity`.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 2 different matches.
+    /// epipole.NoConsensusError
+    ///     If no similarity has 2 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_similarity(pixels1, pixels2) -> PyResult<RansacReport> {
+        robust::estimate_similarity, give_object::<_, PlaneSimilarity>
+    }
 }

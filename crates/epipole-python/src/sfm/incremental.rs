@@ -6,6 +6,7 @@ use super::wrapper::wrapper;
 use crate::record::record;
 use crate::steps::{self, Job, take, with};
 use crate::{options, progress};
+use epipole::progress::Monitor;
 use epipole::sfm;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -252,11 +253,10 @@ impl IncrementalReconstruction {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let input = &input.0;
-        let job = steps::start(py, progress, options, |options, monitor| {
-            sfm::IncrementalReconstruction::new(input, options, monitor)
-        });
-        Ok(Self(job?))
+        let start = |options: &_, monitor: &mut dyn Monitor| {
+            sfm::IncrementalReconstruction::new(&input.0, options, monitor)
+        };
+        Ok(Self(steps::start(py, progress, options, start)?))
     }
 
     /// Takes the next step and returns it; None after the last.

@@ -8,6 +8,7 @@ use crate::camera::{Camera, RigidTransform};
 use crate::steps::{self, Job, take};
 use crate::{options, progress};
 use epipole::feature::Match;
+use epipole::progress::Monitor;
 use epipole::sfm;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -83,16 +84,17 @@ impl OdometryResult {
 /// Arguments of the functions for stereo rigs.
 struct Right {
     images: Vec<sfm::SfmImage>,
-    left_right: Vec<Vec<Match>>,
+    /// Matches between the two images of each frame.
+    pairs: Vec<Vec<Match>>,
 }
 
 impl Right {
     fn read(right: Vec<SfmImage>, left_right: Vec<Bound<'_, PyAny>>) -> PyResult<Self> {
         let frames = left_right.iter().enumerate();
-        let left_right = frames.map(|(k, frame)| matches(&format!("left_right[{k}]"), frame));
+        let pairs = frames.map(|(k, frame)| matches(&format!("left_right[{k}]"), frame));
         Ok(Self {
             images: right.into_iter().map(|image| image.0).collect(),
-            left_right: left_right.collect::<PyResult<_>>()?,
+            pairs: pairs.collect::<PyResult<_>>()?,
         })
     }
 }
@@ -183,18 +185,10 @@ pub(super) fn stereo_odometry(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<OdometryResult> {
     let options = options::read(options)?;
-    let Right { images, left_right } = Right::read(right, left_right)?;
+    let Right { images, pairs } = Right::read(right, left_right)?;
     let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
     let result = progress::run(py, progress, |monitor| {
-        sfm::stereo_odometry(
-            left,
-            &images,
-            &left_right,
-            motion,
-            camera,
-            &options,
-            monitor,
-        )
+        sfm::stereo_odometry(left, &images, &pairs, motion, camera, &options, monitor)
     })?;
     Ok(OdometryResult(result))
 }
@@ -232,11 +226,10 @@ impl Odometry {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let input = &input.0;
-        let job = steps::start(py, progress, options, |options, monitor| {
-            sfm::Odometry::monocular(input, options, monitor)
-        });
-        Ok(Self(job?))
+        let monocular = |options: &_, monitor: &mut dyn Monitor| {
+            sfm::Odometry::monocular(&input.0, options, monitor)
+        };
+        Ok(Self(steps::start(py, progress, options, monocular)?))
     }
 
     /// Starts with a stereo rig; see `stereo_odometry`.
@@ -278,18 +271,10 @@ impl Odometry {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let options = options::read(options)?;
-        let Right { images, left_right } = Right::read(right, left_right)?;
+        let Right { images, pairs } = Right::read(right, left_right)?;
         let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
         let started = progress::run(py, progress, |monitor| {
-            sfm::Odometry::stereo(
-                left,
-                &images,
-                &left_right,
-                motion,
-                camera,
-                &options,
-                monitor,
-            )
+            sfm::Odometry::stereo(left, &images, &pairs, motion, camera, &options, monitor)
         })?;
         Ok(Self(Mutex::new(Some(started))))
     }

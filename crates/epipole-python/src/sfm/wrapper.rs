@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Implements what `shown_class` does, and `__eq__`, for a class that wraps a value of the library.
+/// Implements everything of `shown_class`, and `__eq__`, for a class around a value of the library.
 macro_rules! wrapper {
     ($class:ident: $($field:ident),+) => {
         $crate::record::shown_class!($class: $($field),+);
