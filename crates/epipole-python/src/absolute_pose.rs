@@ -5,7 +5,8 @@ use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
-use crate::robust::{RansacReport, estimate};
+use crate::register::{classes, functions};
+use crate::robust::{RansacReport, estimate, give_object};
 use epipole::absolute_pose;
 use epipole::nalgebra::{Point2, Point3};
 use pyo3::prelude::*;
@@ -46,6 +47,18 @@ impl AbsolutePoseWithFocal {
     }
 }
 
+/// Points in the world and their pixels.
+type Correspondences = (Vec<Point3<f64>>, Vec<Point2<f64>>);
+
+/// Reads the arguments `points_in_world` and `pixels`.
+fn points_with_pixels(
+    points_in_world: &Bound<'_, PyAny>,
+    pixels: &Bound<'_, PyAny>,
+) -> PyResult<Correspondences> {
+    let points = points3("points_in_world", points_in_world)?;
+    Ok((points, points2("pixels", pixels)?))
+}
+
 /// Estimates the pose of a calibrated camera from points with outliers, by RANSAC.
 ///
 /// Parameters
@@ -75,23 +88,19 @@ impl AbsolutePoseWithFocal {
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, camera, *, progress=None, **options))]
 fn estimate_absolute_pose(
-    py: Python<'_>,
     points_in_world: &Bound<'_, PyAny>,
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
-    let options = options::read(options)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let camera = &camera.0;
-    estimate(
-        py,
-        progress,
-        |m| absolute_pose::estimate_absolute_pose(&points, &pixels, camera, &options, m),
-        |model| Ok(Bound::new(py, RigidTransform::from(model))?.into_any()),
-    )
+    let give = give_object::<_, RigidTransform>;
+    let py = points_in_world.py();
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose(&points, &pixels, camera, options, monitor)
+    })
 }
 
 /// Estimates pose and focal length of a camera from points with outliers, by RANSAC.
@@ -124,27 +133,21 @@ fn estimate_absolute_pose(
 #[pyfunction]
 #[pyo3(signature = (points_in_world, pixels, principal, *, progress=None, **options))]
 fn estimate_absolute_pose_and_focal(
-    py: Python<'_>,
     points_in_world: &Bound<'_, PyAny>,
     pixels: &Bound<'_, PyAny>,
     principal: &Bound<'_, PyAny>,
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let principal = Point2::from(vector("principal", principal)?);
-    let options = options::read(options)?;
-    estimate(
-        py,
-        progress,
-        |monitor| {
-            absolute_pose::estimate_absolute_pose_and_focal(
-                &points, &pixels, &principal, &options, monitor,
-            )
-        },
-        |model| Ok(Bound::new(py, AbsolutePoseWithFocal::from(model))?.into_any()),
-    )
+    let give = give_object::<_, AbsolutePoseWithFocal>;
+    let py = points_in_world.py();
+    estimate(py, progress, options, give, |options, monitor| {
+        absolute_pose::estimate_absolute_pose_and_focal(
+            &points, &pixels, &principal, options, monitor,
+        )
+    })
 }
 
 /// Computes the poses from three rays and their points.
@@ -223,8 +226,7 @@ fn pose_dlt(
     pixels: &Bound<'_, PyAny>,
     intrinsics: &Intrinsics,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     Ok(absolute_pose::pose_dlt(&points, &pixels, &intrinsics.0)
         .or_raise()?
         .into())
@@ -256,8 +258,7 @@ fn fit_absolute_pose(
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     Ok(
         absolute_pose::fit_absolute_pose(&points, &pixels, &camera.0)
             .or_raise()?
@@ -292,8 +293,7 @@ fn find_flipped_pose(
     pixels: &Bound<'_, PyAny>,
     camera: &Camera,
 ) -> PyResult<Option<RigidTransform>> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let pose = &cam_from_world.0;
     let flipped = absolute_pose::find_flipped_pose(pose, &points, &pixels, &camera.0);
     Ok(flipped.or_raise()?.map(RigidTransform::from))
@@ -332,8 +332,7 @@ fn refine_absolute_pose(
     camera: &Camera,
     loss: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<RigidTransform> {
-    let points = points3("points_in_world", points_in_world)?;
-    let pixels = points2("pixels", pixels)?;
+    let (points, pixels) = points_with_pixels(points_in_world, pixels)?;
     let loss = options::loss(loss)?;
     let pose = &cam_from_world.0;
     let refined = absolute_pose::refine_absolute_pose(pose, &points, &pixels, &camera.0, loss);
@@ -373,15 +372,10 @@ fn reprojection_error_px<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<AbsolutePoseWithFocal>()?;
-    module.add_function(wrap_pyfunction!(estimate_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_absolute_pose_and_focal, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_p3p, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_p4pf, module)?)?;
-    module.add_function(wrap_pyfunction!(pose_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(fit_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(find_flipped_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(refine_absolute_pose, module)?)?;
-    module.add_function(wrap_pyfunction!(reprojection_error_px, module)?)?;
+    classes!(module: AbsolutePoseWithFocal);
+    functions!(module:
+        estimate_absolute_pose, estimate_absolute_pose_and_focal, pose_p3p, pose_p4pf, pose_dlt,
+        fit_absolute_pose, find_flipped_pose, refine_absolute_pose, reprojection_error_px
+    );
     Ok(())
 }

@@ -5,7 +5,7 @@
 
 mod batch;
 
-pub(crate) use batch::{Batch, Pairs};
+pub(crate) use batch::{Batch, Pairs, match_error};
 
 use epipole::nalgebra;
 use nalgebra::{Matrix3, OPoint, Point2, Point3, SMatrix, SVector};
@@ -20,6 +20,14 @@ use std::ops::Range;
 /// Reads an array of shape `(N, 2)`.
 pub(crate) fn points2(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<Point2<f64>>> {
     rows(name, value, |&[u, v]| Point2::new(u, v))
+}
+
+/// Reads the arguments `pixels1` and `pixels2`, each an array of shape `(N, 2)`.
+pub(crate) fn pixel_pairs(
+    pixels1: &Bound<'_, PyAny>,
+    pixels2: &Bound<'_, PyAny>,
+) -> PyResult<[Vec<Point2<f64>>; 2]> {
+    Ok([points2("pixels1", pixels1)?, points2("pixels2", pixels2)?])
 }
 
 /// Reads an array of shape `(N, 3)`.
@@ -215,11 +223,15 @@ fn wrong_shape(name: &str, expected: &str, value: &Bound<'_, PyAny>, shape: &[us
 }
 
 /// Creates an array of shape `(N, D)`.
-pub(crate) fn from_rows<'py, const D: usize>(
-    py: Python<'py>,
-    rows: &[SVector<f64, D>],
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    joined(py, rows.len(), rows.iter().map(SVector::as_slice), D)
+pub(crate) fn from_rows<const D: usize>(
+    py: Python<'_>,
+    rows: impl IntoIterator<Item = SVector<f64, D>>,
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
+    let rows = rows.into_iter();
+    let mut numbers = Vec::with_capacity(rows.size_hint().0 * D);
+    rows.for_each(|row| numbers.extend_from_slice(row.as_slice()));
+    let count = numbers.len() / D;
+    PyArray1::from_vec(py, numbers).reshape([count, D])
 }
 
 /// Creates an array of shape `(N, D)`.
@@ -227,19 +239,7 @@ pub(crate) fn from_points<'py, const D: usize>(
     py: Python<'py>,
     points: &[OPoint<f64, nalgebra::Const<D>>],
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let rows = points.iter().map(|point| point.coords.as_slice());
-    joined(py, points.len(), rows, D)
-}
-
-fn joined<'py, 'a>(
-    py: Python<'py>,
-    count: usize,
-    rows: impl Iterator<Item = &'a [f64]>,
-    columns: usize,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let mut numbers = Vec::with_capacity(count * columns);
-    rows.for_each(|row| numbers.extend_from_slice(row));
-    PyArray1::from_vec(py, numbers).reshape([count, columns])
+    from_rows(py, points.iter().map(|point| point.coords))
 }
 
 /// Creates an array of shape `(R, C)`.

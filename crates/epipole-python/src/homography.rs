@@ -1,18 +1,18 @@
 //! Homographies.
 
 use crate::arrays::{
-    Batch, Pairs, exact_points, from_matrices, from_matrix, matrix, points2, vector,
+    Batch, exact_points, from_matrices, from_matrix, match_error, matrix, pixel_pairs, vector,
 };
-use crate::camera::{Camera, Intrinsics, RigidTransform};
+use crate::camera::{Intrinsics, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
-use crate::robust::{RansacReport, estimate};
+use crate::register::{classes, functions};
+use crate::robust::{RansacReport, estimator, give_matrix};
 use epipole::nalgebra::{Matrix3, Point2};
 use epipole::{Error, homography};
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 record! {
     /// Motion and plane of a homography.
@@ -24,102 +24,71 @@ record! {
     }
 }
 
-/// Estimates a homography from matches with outliers, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of ndarray
-///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 4 different matches.
-/// epipole.DegenerateError
-///     If all pixels of an image are on a line.
-/// epipole.NoConsensusError
-///     If no homography has 4 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
-fn estimate_homography(
-    py: Python<'_>,
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    estimate(
-        py,
-        progress,
-        |monitor| homography::estimate_homography(&pixels1, &pixels2, &options, monitor),
-        |model| Ok(from_matrix(py, &model)?.into_any()),
-    )
+estimator! {
+    /// Estimates a homography from matches with outliers, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of ndarray
+    ///     Its model is H, shape (3, 3), with ``x2 ~ H @ x1``.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 4 different matches.
+    /// epipole.DegenerateError
+    ///     If all pixels of an image are on a line.
+    /// epipole.NoConsensusError
+    ///     If no homography has 4 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_homography(pixels1, pixels2) -> PyResult<RansacReport> {
+        homography::estimate_homography, give_matrix
+    }
 }
 
-/// Estimates a homography between the rays of two calibrated cameras, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// camera1, camera2 : Camera
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of ndarray
-///     Its model is the H that maps rays, shape (3, 3).
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If fewer than 4 different matches are within the range of both lenses.
-/// epipole.DegenerateError
-///     If all pixels of an image of a pinhole camera are on a line.
-/// epipole.NoConsensusError
-///     If no homography has 4 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
-fn estimate_homography_calibrated(
-    py: Python<'_>,
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    camera1: &Camera,
-    camera2: &Camera,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    let cameras = [&camera1.0, &camera2.0];
-    estimate(
-        py,
-        progress,
-        |monitor| {
-            homography::estimate_homography_calibrated(
-                &pixels1, &pixels2, cameras, &options, monitor,
-            )
-        },
-        |model| Ok(from_matrix(py, &model)?.into_any()),
-    )
+estimator! {
+    /// Estimates a homography between the rays of two calibrated cameras, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// camera1, camera2 : Camera
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of ndarray
+    ///     Its model is the H that maps rays, shape (3, 3).
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If fewer than 4 different matches are within the range of both lenses.
+    /// epipole.DegenerateError
+    ///     If all pixels of an image of a pinhole camera are on a line.
+    /// epipole.NoConsensusError
+    ///     If no homography has 4 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_homography_calibrated(
+        pixels1, pixels2, camera1, camera2
+    ) -> PyResult<RansacReport> {
+        homography::estimate_homography_calibrated, give_matrix
+    }
 }
 
 /// Computes the homographies of four matches.
@@ -167,8 +136,7 @@ fn fit_homography<'py>(
     pixels1: &Bound<'py, PyAny>,
     pixels2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     from_matrix(
         pixels1.py(),
         &homography::fit_homography(&first, &second).or_raise()?,
@@ -204,8 +172,7 @@ fn refine_homography<'py>(
     loss: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let h = matrix("homography", homography)?;
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let loss = options::loss(loss)?;
     let refined = homography::refine_homography(&h, &first, &second, loss).or_raise()?;
     from_matrix(pixels1.py(), &refined)
@@ -248,50 +215,38 @@ fn transfer<'py>(
     Batch::<2>::read("pixel1", pixel1)?.vectors(pixel1.py(), transfer)
 }
 
-/// Computes the distances in image 2 between mapped pixels and their matches.
-///
-/// Parameters
-/// ----------
-/// homography : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-fn transfer_error_px<'py>(
-    homography: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let h: Matrix3<f64> = matrix("homography", homography)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        homography::transfer_error_px(&h, &Point2::from(*p), &Point2::from(*q))
-    })
+match_error! {
+    /// Computes the distances in image 2 between mapped pixels and their matches.
+    ///
+    /// Parameters
+    /// ----------
+    /// homography : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn transfer_error_px(homography, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        homography::transfer_error_px
+    }
 }
 
-/// Computes the Sampson distances of matches from a homography.
-///
-/// Parameters
-/// ----------
-/// homography : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-fn homography_sampson_px<'py>(
-    homography: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let h: Matrix3<f64> = matrix("homography", homography)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        homography::homography_sampson_px(&h, &Point2::from(*p), &Point2::from(*q))
-    })
+match_error! {
+    /// Computes the Sampson distances of matches from a homography.
+    ///
+    /// Parameters
+    /// ----------
+    /// homography : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn homography_sampson_px(homography, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        homography::homography_sampson_px
+    }
 }
 
 /// Decomposes a homography into its possible motions and planes.
@@ -354,15 +309,11 @@ fn homography_from_motion<'py>(
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PlaneMotion>()?;
-    module.add_function(wrap_pyfunction!(estimate_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_homography_calibrated, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_4point, module)?)?;
-    module.add_function(wrap_pyfunction!(fit_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(refine_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer_error_px, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_sampson_px, module)?)?;
-    module.add_function(wrap_pyfunction!(decompose_homography, module)?)?;
-    module.add_function(wrap_pyfunction!(homography_from_motion, module)?)
+    classes!(module: PlaneMotion);
+    functions!(module:
+        estimate_homography, estimate_homography_calibrated, homography_4point, fit_homography,
+        refine_homography, transfer, transfer_error_px, homography_sampson_px, decompose_homography,
+        homography_from_motion
+    );
+    Ok(())
 }

@@ -13,6 +13,7 @@
 //! | [`options`] | keyword options to the library's option structs |
 //! | [`progress`] | long computations without the GIL, progress, Ctrl-C |
 //! | [`record`] | `repr`, equality and pickling of classes |
+//! | [`register`] | registration of classes and functions in a module |
 //! | [`threads`] | number of threads for a block of Python |
 
 mod absolute_pose;
@@ -33,6 +34,7 @@ mod optim;
 mod options;
 mod progress;
 mod record;
+mod register;
 mod robust;
 mod sfm;
 mod steps;

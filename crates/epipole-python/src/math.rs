@@ -4,6 +4,7 @@ use crate::arrays::{as_array, from_matrix, from_vector, matrix, vector};
 use crate::errors::OrRaise;
 use crate::images::{elements, wrong_shape};
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::wrapper;
 use epipole::math;
 use epipole::nalgebra::{Point2, Vector3, Vector4};
@@ -324,11 +325,8 @@ impl Random {
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Geodetic>()?;
-    module.add_class::<Line2>()?;
-    module.add_class::<Svd3>()?;
-    module.add_function(wrap_pyfunction!(local_from_geodetic, module)?)?;
-    module.add_function(wrap_pyfunction!(svd3, module)?)?;
-    module.add_function(wrap_pyfunction!(length, module)?)?;
-    module.add_class::<Random>()
+    classes!(module: Geodetic, Line2, Svd3);
+    functions!(module: local_from_geodetic, svd3, length);
+    classes!(module: Random);
+    Ok(())
 }

@@ -7,6 +7,7 @@ mod view;
 
 use crate::images::rgb;
 use crate::io::give_cloud;
+use crate::register::{classes, functions};
 use crate::sfm::Reconstruction;
 use crate::{options, progress};
 use depth_map::DepthMap;
@@ -94,10 +95,9 @@ fn estimate_depth_maps(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<DepthMap>> {
-    let options = options::read(options)?;
     let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
-    let maps = progress::run(py, progress, |monitor| {
-        mvs::estimate_depth_maps(&views, &options, monitor)
+    let maps = progress::run_with(py, progress, options, |options, monitor| {
+        mvs::estimate_depth_maps(&views, options, monitor)
     })?;
     Ok(maps.into_iter().map(DepthMap).collect())
 }
@@ -130,26 +130,23 @@ fn fuse_depth_maps<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let options = options::read(options)?;
     let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
     let maps: Vec<mvs::DepthMap> = maps.into_iter().map(|map| map.0).collect();
-    let cloud = progress::run(py, progress, |monitor| {
-        mvs::fuse_depth_maps(&views, &maps, &options, monitor)
+    let cloud = progress::run_with(py, progress, options, |options, monitor| {
+        mvs::fuse_depth_maps(&views, &maps, options, monitor)
     })?;
     give_cloud(py, &cloud)
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &mvs::MvsOptions::default())?;
-    module.add_class::<MvsView>()?;
-    module.add_class::<DepthMap>()?;
-    module.add_function(wrap_pyfunction!(prepare_views, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_depth_maps, module)?)?;
-    module.add_function(wrap_pyfunction!(fuse_depth_maps, module)?)?;
+    classes!(module: MvsView, DepthMap);
+    functions!(module: prepare_views, estimate_depth_maps, fuse_depth_maps);
     crate::options::declare(module, &mvs::MeshOptions::default())?;
-    module.add_class::<mesh::Mesh>()?;
-    module.add_function(wrap_pyfunction!(mesh::mesh_depth_maps, module)?)?;
+    classes!(module: mesh::Mesh);
+    functions!(module: mesh::mesh_depth_maps);
     crate::options::declare(module, &mvs::TextureOptions::default())?;
-    module.add_class::<texture::MeshTexture>()?;
-    module.add_function(wrap_pyfunction!(texture::texture_mesh, module)?)
+    classes!(module: texture::MeshTexture);
+    functions!(module: texture::texture_mesh);
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use crate::arrays::as_array;
 use crate::images::{elements, wrong_shape};
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::{options, progress};
 use epipole::nalgebra::{DMatrix, DVector};
 use epipole::optim::{self, DenseProblem, LmOptions, RobustLoss, Termination};
@@ -334,8 +335,7 @@ fn check_jacobian(
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::optim::LmOptions::default())?;
-    module.add_class::<Iteration>()?;
-    module.add_class::<LmReport>()?;
-    module.add_function(wrap_pyfunction!(minimize_dense, module)?)?;
-    module.add_function(wrap_pyfunction!(check_jacobian, module)?)
+    classes!(module: Iteration, LmReport);
+    functions!(module: minimize_dense, check_jacobian);
+    Ok(())
 }

@@ -1,9 +1,11 @@
 //! Long computations: without the GIL, with a progress callback, interruptible by Ctrl-C.
 
 use crate::errors::OrRaise;
+use crate::options::{self, Options};
 use crate::{fork, threads};
 use epipole::progress::{Monitor, Stage, Status};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rayon::ThreadPool;
 use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -50,6 +52,20 @@ pub(crate) fn run<T: Send>(
         Some(raised) => Err(raised),
         None => result.or_raise(),
     }
+}
+
+/// Reads keyword options, and runs `work` with them as [`run`] does.
+///
+/// # Errors
+/// As [`options::read`] and [`run`].
+pub(crate) fn run_with<O: Options, T: Send>(
+    py: Python<'_>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+    work: impl FnOnce(&O, &mut dyn Monitor) -> epipole::Result<T> + Send,
+) -> PyResult<T> {
+    let options = options::read(options)?;
+    run(py, progress, |monitor| work(&options, monitor))
 }
 
 /// Runs `work` in a pool, and meanwhile checks for signals, which only this thread receives.

@@ -86,20 +86,20 @@ pub(crate) fn equal(
     Ok(true)
 }
 
+/// Class and arguments that recreate an object.
+pub(crate) type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
+
 /// Returns the class and arguments that recreate the object, for pickling and copying.
-pub(crate) fn reduce<'py>(
-    object: &Bound<'py, PyAny>,
-    fields: &[&str],
-) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+pub(crate) fn reduce<'py>(object: &Bound<'py, PyAny>, fields: &[&str]) -> PyResult<Reduced<'py>> {
     let names = fields.iter().map(|field| PyString::new(object.py(), field));
     let values: PyResult<Vec<_>> = names.map(|name| object.getattr(name)).collect();
     let arguments = PyTuple::new(object.py(), values?)?;
     Ok((object.get_type().into_any(), arguments))
 }
 
-/// Implements `__repr__`, `_repr_html_`, `__eq__` and `__reduce__` for a class. Its constructor
-/// takes these attributes.
-macro_rules! plain_class {
+/// Implements `__repr__`, `_repr_html_` and `__reduce__` for a class. Its constructor takes these
+/// attributes.
+macro_rules! shown_class {
     ($class:ident: $($field:ident),+) => {
         #[pymethods]
         impl $class {
@@ -111,14 +111,34 @@ macro_rules! plain_class {
                 $crate::record::html(slf, &[$(stringify!($field)),+])
             }
 
+            fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<$crate::record::Reduced<'py>> {
+                $crate::record::reduce(slf, &[$(stringify!($field)),+])
+            }
+        }
+    };
+}
+
+/// Implements everything of `shown_class`, and `__eq__` by the attributes.
+macro_rules! plain_class {
+    ($class:ident: $($field:ident),+) => {
+        $crate::record::shown_class!($class: $($field),+);
+
+        #[pymethods]
+        impl $class {
             fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
                 $crate::record::equal(slf, other, &[$(stringify!($field)),+])
             }
+        }
+    };
+}
 
-            fn __reduce__<'py>(
-                slf: &Bound<'py, Self>,
-            ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, pyo3::types::PyTuple>)> {
-                $crate::record::reduce(slf, &[$(stringify!($field)),+])
+/// Implements `__len__`: the number of rows of an attribute.
+macro_rules! rows {
+    ($class:ident: $field:ident) => {
+        #[pymethods]
+        impl $class {
+            fn __len__(&self, py: Python<'_>) -> usize {
+                self.$field.bind(py).shape()[0]
             }
         }
     };
@@ -161,3 +181,5 @@ macro_rules! record {
 
 pub(crate) use plain_class;
 pub(crate) use record;
+pub(crate) use rows;
+pub(crate) use shown_class;

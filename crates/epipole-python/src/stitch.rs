@@ -1,9 +1,10 @@
 //! Panoramas.
 
-use crate::arrays::{from_matrix, from_rows, matrix, points2};
+use crate::arrays::{from_matrix, from_points, matrix, pixel_pairs};
 use crate::camera::Intrinsics;
 use crate::errors::OrRaise;
 use crate::images::{from_rgb, rgb};
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::{require_equal, wrapper};
 use crate::{options, progress};
 use epipole::nalgebra::Matrix3;
@@ -44,7 +45,7 @@ impl Overlap {
         num_matches: usize,
         has_parallax: bool,
     ) -> PyResult<Self> {
-        let pixels = [points2("pixels1", pixels1)?, points2("pixels2", pixels2)?];
+        let pixels = pixel_pairs(pixels1, pixels2)?;
         require_equal(("pixels1", pixels[0].len()), ("pixels2", pixels[1].len()))?;
         Ok(Self(stitch::Overlap {
             images,
@@ -94,11 +95,7 @@ impl Overlap {
 
 impl Overlap {
     fn pixels<'py>(&self, py: Python<'py>, image: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.pixels[image]
-            .iter()
-            .map(|pixel| pixel.coords)
-            .collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.pixels[image])
     }
 }
 
@@ -233,10 +230,9 @@ fn find_overlap(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Overlap>> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    let overlap = progress::run(py, progress, |monitor| {
-        stitch::find_overlap(images, &pixels1, &pixels2, &options, monitor)
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
+    let overlap = progress::run_with(py, progress, options, |options, monitor| {
+        stitch::find_overlap(images, &pixels1, &pixels2, options, monitor)
     })?;
     Ok(overlap.map(Overlap))
 }
@@ -363,10 +359,7 @@ fn render_panorama<'py>(
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::stitch::OverlapOptions::default())?;
     crate::options::declare(module, &epipole::stitch::RenderOptions::default())?;
-    module.add_class::<Overlap>()?;
-    module.add_class::<Panorama>()?;
-    module.add_function(wrap_pyfunction!(find_overlap, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_panorama, module)?)?;
-    module.add_function(wrap_pyfunction!(chain_homographies, module)?)?;
-    module.add_function(wrap_pyfunction!(render_panorama, module)?)
+    classes!(module: Overlap, Panorama);
+    functions!(module: find_overlap, estimate_panorama, chain_homographies, render_panorama);
+    Ok(())
 }

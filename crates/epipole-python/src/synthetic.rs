@@ -1,29 +1,17 @@
 //! Random points seen by known cameras, with ground truth.
 
-use crate::arrays::from_rows;
+use crate::arrays::{from_points, from_rows};
 use crate::camera::PosedCamera;
 use crate::errors::OrRaise;
 use crate::options;
-use crate::record::record;
+use crate::record::{Reduced, record};
+use crate::register::classes;
 use crate::sfm::wrapper::give_index_rows;
-use epipole::nalgebra::{Point2, Point3};
 use epipole::synthetic;
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
-
-/// Creates an array of shape (N, 2).
-fn pixels(py: Python<'_>, points: &[Point2<f64>]) -> PyResult<Py<PyArray2<f64>>> {
-    let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
-    Ok(from_rows(py, &rows)?.unbind())
-}
-
-/// Creates an array of shape (N, 3).
-fn places(py: Python<'_>, points: &[Point3<f64>]) -> PyResult<Py<PyArray2<f64>>> {
-    let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
-    Ok(from_rows(py, &rows)?.unbind())
-}
 
 /// Returns the class and options that recreate a problem, for pickling.
 fn reduce<'py, T: serde::Serialize>(
@@ -87,14 +75,14 @@ impl TwoViewProblem {
 
     /// Measured pixels in the first image, shape (N, 2).
     #[getter]
-    fn pixels1(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
-        pixels(py, &self.problem.pixels1)
+    fn pixels1<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_points(py, &self.problem.pixels1)
     }
 
     /// Matching pixels in the second image, shape (N, 2).
     #[getter]
-    fn pixels2(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
-        pixels(py, &self.problem.pixels2)
+    fn pixels2<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_points(py, &self.problem.pixels2)
     }
 
     /// Whether each match is correct up to noise, boolean array of shape (N,).
@@ -105,8 +93,8 @@ impl TwoViewProblem {
 
     /// Points in the world, shape (N, 3).
     #[getter]
-    fn points(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
-        places(py, &self.problem.points)
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_points(py, &self.problem.points)
     }
 
     fn __repr__(&self) -> String {
@@ -118,14 +106,11 @@ impl TwoViewProblem {
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other
-            .cast::<Self>()
-            .is_ok_and(|other| other.get().problem == self.problem)
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| other.get().problem == self.problem)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         reduce(slf, &slf.get().options)
     }
 }
@@ -173,22 +158,22 @@ impl MultiViewProblem {
 
     /// Ground-truth points in the world, shape (P, 3).
     #[getter]
-    fn points(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
-        places(py, &self.problem.points)
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        from_points(py, &self.problem.points)
     }
 
     /// All observations, sorted by point, then by camera.
     #[getter]
     fn observations(&self, py: Python<'_>) -> PyResult<Sightings> {
         let sightings = &self.problem.observations;
-        let at: Vec<_> = sightings.iter().map(|sighting| sighting.pixel).collect();
+        let pixels = sightings.iter().map(|sighting| sighting.pixel.coords);
         let is_inlier = sightings.iter().map(|sighting| sighting.is_inlier);
         let rows = sightings
             .iter()
             .map(|sighting| [sighting.camera, sighting.point]);
         Ok(Sightings {
             indices: give_index_rows(py, rows)?.unbind(),
-            pixels: pixels(py, &at)?,
+            pixels: from_rows(py, pixels)?.unbind(),
             is_inlier: PyArray1::from_iter(py, is_inlier).unbind(),
         })
     }
@@ -213,14 +198,11 @@ impl MultiViewProblem {
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other
-            .cast::<Self>()
-            .is_ok_and(|other| other.get().problem == self.problem)
+        let other = other.cast::<Self>();
+        other.is_ok_and(|other| other.get().problem == self.problem)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         reduce(slf, &slf.get().options)
     }
 }
@@ -246,7 +228,6 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module,
         &epipole::synthetic::TwoViewProblemOptions::default(),
     )?;
-    module.add_class::<TwoViewProblem>()?;
-    module.add_class::<MultiViewProblem>()?;
-    module.add_class::<Sightings>()
+    classes!(module: TwoViewProblem, MultiViewProblem, Sightings);
+    Ok(())
 }

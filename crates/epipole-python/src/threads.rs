@@ -1,5 +1,6 @@
 //! Number of threads of the library, chosen for a block of Python.
 
+use crate::register::{classes, functions};
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -106,7 +107,7 @@ fn num_threads() -> usize {
 }
 
 pub(crate) fn register(package: &Bound<'_, PyModule>) -> PyResult<()> {
-    package.add_class::<Threads>()?;
-    package.add_function(wrap_pyfunction!(threads, package)?)?;
-    package.add_function(wrap_pyfunction!(num_threads, package)?)
+    classes!(package: Threads);
+    functions!(package: threads, num_threads);
+    Ok(())
 }

@@ -5,7 +5,8 @@ use crate::camera::{PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::record::record;
-use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, Vector4};
+use crate::register::{classes, functions};
+use epipole::nalgebra::{Matrix3, Matrix3x4, Point2, Point3, Vector3, Vector4};
 use epipole::{camera, triangulation};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -48,10 +49,27 @@ fn triangulate_dlt<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let p1: Matrix3x4<f64> = matrix("p1", p1)?;
     let p2: Matrix3x4<f64> = matrix("p2", p2)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = (Point2::from(*a), Point2::from(*b));
         Ok(triangulation::triangulate_dlt(&p1, &p2, &a, &b)?.coords)
     })
+}
+
+/// Triangulates points from rays in the frames of their cameras.
+fn triangulate_rays<'py>(
+    cam2_from_cam1: &RigidTransform,
+    ray1: &Bound<'py, PyAny>,
+    ray2: &Bound<'py, PyAny>,
+    triangulate: impl Fn(
+        &camera::RigidTransform,
+        &Vector3<f64>,
+        &Vector3<f64>,
+    ) -> epipole::Result<Point3<f64>>
+    + Sync,
+) -> PyResult<Bound<'py, PyAny>> {
+    let motion = &cam2_from_cam1.0;
+    let pairs = Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?;
+    pairs.vectors(ray1.py(), |a, b| Ok(triangulate(motion, a, b)?.coords))
 }
 
 /// Triangulates points of two views: the midpoints where rays are nearest to each other.
@@ -87,10 +105,8 @@ fn triangulate_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_midpoint(motion, a, b)?.coords)
-    })
+    let triangulate = triangulation::triangulate_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views: midpoints of rays, weighted by inverse depth.
@@ -119,10 +135,8 @@ fn triangulate_weighted_midpoint<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_weighted_midpoint(motion, a, b)?.coords)
-    })
+    let triangulate = triangulation::triangulate_weighted_midpoint;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views with the smallest sum of angular errors.
@@ -151,10 +165,8 @@ fn triangulate_angular<'py>(
     ray1: &Bound<'py, PyAny>,
     ray2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let motion = &cam2_from_cam1.0;
-    Pairs::<3, 3>::read(("ray1", ray1), ("ray2", ray2))?.vectors(ray1.py(), |a, b| {
-        Ok(triangulation::triangulate_angular(motion, a, b)?.coords)
-    })
+    let triangulate = triangulation::triangulate_angular;
+    triangulate_rays(cam2_from_cam1, ray1, ray2, triangulate)
 }
 
 /// Triangulates points of two views with the smallest reprojection error.
@@ -181,7 +193,7 @@ fn triangulate_optimal<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = (Point2::from(*a), Point2::from(*b));
         Ok(triangulation::triangulate_optimal(&cam1.0, &cam2.0, &a, &b)?.coords)
     })
@@ -211,7 +223,7 @@ fn correct_matches<'py>(
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.vectors(pixel1.py(), |a, b| {
+    Pairs::pixels(pixel1, pixel2)?.vectors(pixel1.py(), |a, b| {
         let (a, b) = triangulation::correct_matches(&f, &Point2::from(*a), &Point2::from(*b))?;
         Ok(Vector4::new(a.x, a.y, b.x, b.y))
     })
@@ -348,16 +360,11 @@ fn cores(cameras: &[PosedCamera]) -> Vec<camera::PosedCamera> {
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<NviewPoint>()?;
-    module.add_function(wrap_pyfunction!(triangulate_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_midpoint, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_weighted_midpoint, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_angular, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_optimal, module)?)?;
-    module.add_function(wrap_pyfunction!(correct_matches, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_nview_dlt, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulate_nview, module)?)?;
-    module.add_function(wrap_pyfunction!(triangulation_angle_rad, module)?)?;
-    module.add_function(wrap_pyfunction!(point_covariance, module)?)?;
+    classes!(module: NviewPoint);
+    functions!(module:
+        triangulate_dlt, triangulate_midpoint, triangulate_weighted_midpoint, triangulate_angular,
+        triangulate_optimal, correct_matches, triangulate_nview_dlt, triangulate_nview,
+        triangulation_angle_rad, point_covariance
+    );
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! Two views whose configuration is unknown: F, E, H or a rotation.
 
-use crate::arrays::{from_matrix, mask, points2};
+use crate::arrays::{from_matrix, mask, pixel_pairs};
 use crate::camera::{Camera, RigidTransform};
 use crate::errors::OrRaise;
 use crate::options;
 use crate::progress;
 use crate::record::record;
-use crate::robust::{RansacReport, estimate, stop_reason};
-use epipole::nalgebra::Matrix3;
+use crate::register::{classes, functions};
+use crate::robust::{RansacReport, estimator, give_matrix, stop_reason};
+use epipole::nalgebra::{Matrix3, Point2};
 use epipole::two_view::{self, Configuration, TwoViewModel, TwoViewOptions};
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2};
@@ -170,18 +171,16 @@ fn degeneracy(found: two_view::Degeneracy) -> Degeneracy {
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
 fn estimate_two_view(
-    py: Python<'_>,
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<TwoViewReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    let found = progress::run(py, progress, |monitor| {
-        two_view::estimate_two_view(&pixels1, &pixels2, &options, monitor)
-    })?;
-    report(py, found)
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    let found = progress::run_with(pixels1.py(), progress, options, |options, monitor| {
+        two_view::estimate_two_view(&first, &second, options, monitor)
+    });
+    report(pixels1.py(), found?)
 }
 
 /// Estimates the geometry of two calibrated views: E, H or a rotation, and the motion.
@@ -214,7 +213,6 @@ fn estimate_two_view(
 #[pyfunction]
 #[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
 fn estimate_two_view_calibrated(
-    py: Python<'_>,
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
     camera1: &Camera,
@@ -222,60 +220,63 @@ fn estimate_two_view_calibrated(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<TwoViewReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let cameras = [&camera1.0, &camera2.0];
-    let found = progress::run(py, progress, |monitor| {
-        two_view::estimate_two_view_calibrated(&pixels1, &pixels2, cameras, &options, monitor)
-    })?;
-    report(py, found)
+    let found = progress::run_with(pixels1.py(), progress, options, |options, monitor| {
+        two_view::estimate_two_view_calibrated(&first, &second, cameras, options, monitor)
+    });
+    report(pixels1.py(), found?)
 }
 
-/// Estimates the rotation between two calibrated views from the same position, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// camera1, camera2 : Camera
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of ndarray
-///     Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 2 different matches.
-/// epipole.NoConsensusError
-///     If no rotation has 2 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, camera1, camera2, *, progress=None, **options))]
-fn estimate_rotation(
-    py: Python<'_>,
+estimator! {
+    /// Estimates the rotation between two calibrated views from the same position, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// camera1, camera2 : Camera
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of ndarray
+    ///     Its model is the rotation matrix of ``cam2_from_cam1``, shape (3, 3).
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 2 different matches.
+    /// epipole.NoConsensusError
+    ///     If no rotation has 2 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_rotation(pixels1, pixels2, camera1, camera2) -> PyResult<RansacReport> {
+        two_view::estimate_rotation, give_matrix
+    }
+}
+
+/// Looks for a configuration that explains the inliers.
+fn find<T: Send>(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
-    camera1: &Camera,
-    camera2: &Camera,
-    progress: Option<Py<PyAny>>,
+    inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    look: impl FnOnce(
+        &[Point2<f64>],
+        &[Point2<f64>],
+        &[bool],
+        &TwoViewOptions,
+    ) -> epipole::Result<Option<T>>
+    + Send,
+) -> PyResult<Option<T>> {
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    let mask = mask("inliers", inliers)?;
     let options = options::read(options)?;
-    let cameras = [&camera1.0, &camera2.0];
-    estimate(
-        py,
-        progress,
-        |monitor| two_view::estimate_rotation(&pixels1, &pixels2, cameras, &options, monitor),
-        |model| Ok(from_matrix(py, &model)?.into_any()),
-    )
+    progress::detach(inliers.py(), || look(&first, &second, &mask, &options)).or_raise()
 }
 
 /// Checks whether the inliers determine F: not if nothing moved or a homography explains them.
@@ -302,14 +303,8 @@ fn find_degeneracy(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Degeneracy>> {
-    let py = pixels1.py();
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let inliers = mask("inliers", inliers)?;
-    let options: TwoViewOptions = options::read(options)?;
-    let found = progress::detach(py, || {
-        two_view::find_degeneracy(&pixels1, &pixels2, &inliers, &options)
-    });
-    Ok(found.or_raise()?.map(degeneracy))
+    let look = two_view::find_degeneracy;
+    Ok(find(pixels1, pixels2, inliers, options, look)?.map(degeneracy))
 }
 
 /// Checks whether nearly all inliers are at the same pixel in both images.
@@ -342,11 +337,8 @@ fn find_unmoved(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<Degeneracy>> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let inliers = mask("inliers", inliers)?;
-    let options: TwoViewOptions = options::read(options)?;
-    let found = two_view::find_unmoved(&pixels1, &pixels2, &inliers, &options);
-    Ok(found.or_raise()?.map(degeneracy))
+    let look = two_view::find_unmoved;
+    Ok(find(pixels1, pixels2, inliers, options, look)?.map(degeneracy))
 }
 
 /// Finds a rotation that explains nearly all inliers of calibrated views.
@@ -376,15 +368,11 @@ fn find_explaining_rotation(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<ExplainingRotation>> {
-    let py = inliers.py();
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let inliers = mask("inliers", inliers)?;
-    let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
-    let found = progress::detach(py, || {
-        two_view::find_explaining_rotation(&pixels1, &pixels2, cameras, &inliers, &options)
-    });
-    Ok(found.or_raise()?.map(|found_rotation| ExplainingRotation {
+    let found = find(pixels1, pixels2, inliers, options, |p, q, mask, options| {
+        two_view::find_explaining_rotation(p, q, cameras, mask, options)
+    })?;
+    Ok(found.map(|found_rotation| ExplainingRotation {
         cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
         num_explained: found_rotation.num_explained,
         num_inliers: found_rotation.num_inliers,
@@ -418,15 +406,11 @@ fn find_rotation_and_focal(
     inliers: &Bound<'_, PyAny>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<RotationAndFocal>> {
-    let py = inliers.py();
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let inliers = mask("inliers", inliers)?;
-    let options: TwoViewOptions = options::read(options)?;
     let cameras = [&camera1.0, &camera2.0];
-    let found = progress::detach(py, || {
-        two_view::find_rotation_and_focal(&pixels1, &pixels2, cameras, &inliers, &options)
-    });
-    Ok(found.or_raise()?.map(|found_rotation| RotationAndFocal {
+    let found = find(pixels1, pixels2, inliers, options, |p, q, mask, options| {
+        two_view::find_rotation_and_focal(p, q, cameras, mask, options)
+    })?;
+    Ok(found.map(|found_rotation| RotationAndFocal {
         cam2_from_cam1: found_rotation.cam2_from_cam1.into(),
         focal_factor: found_rotation.focal_factor,
         num_explained: found_rotation.num_explained,
@@ -437,16 +421,10 @@ fn find_rotation_and_focal(
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("PHOTO_MAX_ERROR_PX", two_view::PHOTO_MAX_ERROR_PX)?;
     options::declare(module, &TwoViewOptions::default())?;
-    module.add_class::<TwoViewReport>()?;
-    module.add_class::<ExplainingRotation>()?;
-    module.add_class::<RotationAndFocal>()?;
-    module.add_class::<Degeneracy>()?;
-    module.add_function(wrap_pyfunction!(estimate_two_view, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_two_view_calibrated, module)?)?;
-    module.add_function(wrap_pyfunction!(estimate_rotation, module)?)?;
-    module.add_function(wrap_pyfunction!(find_degeneracy, module)?)?;
-    module.add_function(wrap_pyfunction!(find_unmoved, module)?)?;
-    module.add_function(wrap_pyfunction!(find_explaining_rotation, module)?)?;
-    module.add_function(wrap_pyfunction!(find_rotation_and_focal, module)?)?;
+    classes!(module: TwoViewReport, ExplainingRotation, RotationAndFocal, Degeneracy);
+    functions!(module:
+        estimate_two_view, estimate_two_view_calibrated, estimate_rotation, find_degeneracy,
+        find_unmoved, find_explaining_rotation, find_rotation_and_focal
+    );
     Ok(())
 }

@@ -69,11 +69,16 @@ def test_opencv_reads_our_camera(tmp_path, camera):
     np.testing.assert_array_equal(k, camera.intrinsics.matrix())
 
 
+def write_noise(path, height, width):
+    image = np.random.default_rng(2).integers(0, 255, (height, width, 3), dtype=np.uint8)
+    pytest.importorskip("cv2").imwrite(str(path), image[..., ::-1])
+    return image
+
+
 def test_photos_as_opencv(tmp_path):
     cv2 = pytest.importorskip("cv2")
-    image = np.random.default_rng(2).integers(0, 255, (40, 60, 3), dtype=np.uint8)
     path = tmp_path / "photo.png"
-    cv2.imwrite(str(path), image[..., ::-1])
+    image = write_noise(path, 40, 60)
     decoded = io.decode_rgb(path)
     np.testing.assert_array_equal(decoded.image, image)
     assert decoded.focal_px is None and decoded.place is None and decoded.orientation == 1
@@ -94,10 +99,8 @@ def test_photos_as_opencv(tmp_path):
 
 
 def test_prepared_photo(tmp_path, camera):
-    cv2 = pytest.importorskip("cv2")
-    image = np.random.default_rng(2).integers(0, 255, (480, 640, 3), dtype=np.uint8)
     path = tmp_path / "photo.png"
-    cv2.imwrite(str(path), image[..., ::-1])
+    image = write_noise(path, 480, 640)
     prepared = io.prepare_photo(path)
     np.testing.assert_array_equal(prepared.image, image)
     assert prepared.is_as_stored and prepared.full_size == (640, 480) and prepared.quarters == 0

@@ -192,6 +192,35 @@ impl<'a, 'py, const D: usize, const E: usize> Pairs<'a, 'py, D, E> {
     }
 }
 
+impl<'py> Pairs<'_, 'py, 2, 2> {
+    /// Reads the arguments `pixel1` and `pixel2`.
+    pub(crate) fn pixels(pixel1: &Bound<'py, PyAny>, pixel2: &Bound<'py, PyAny>) -> PyResult<Self> {
+        Self::read(("pixel1", pixel1), ("pixel2", pixel2))
+    }
+}
+
+/// Defines the Python function of an error of matches by a matrix of two views.
+macro_rules! match_error {
+    (
+        $(#[doc = $doc:literal])*
+        fn $name:ident($matrix:ident, pixel1, pixel2) -> $result:ty { $error:path }
+    ) => {
+        $(#[doc = $doc])*
+        #[pyfunction]
+        pub(crate) fn $name<'py>(
+            $matrix: &Bound<'py, PyAny>,
+            pixel1: &Bound<'py, PyAny>,
+            pixel2: &Bound<'py, PyAny>,
+        ) -> $result {
+            let matrix = $crate::arrays::matrix(stringify!($matrix), $matrix)?;
+            let pairs = $crate::arrays::Pairs::pixels(pixel1, pixel2)?;
+            pairs.numbers(pixel1.py(), |p, q| $error(&matrix, &(*p).into(), &(*q).into()))
+        }
+    };
+}
+
+pub(crate) use match_error;
+
 /// Ranges of rows; the duration of the first decides whether the others are copied.
 struct Blocks {
     count: usize,

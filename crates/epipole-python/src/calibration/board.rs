@@ -1,10 +1,10 @@
 //! Boards, their drawings, and their marks in photos.
 
-use crate::arrays::{as_array, from_rows, from_vector};
+use crate::arrays::{as_array, from_points, from_rows, from_vector};
 use crate::errors::OrRaise;
 use crate::images::{elements, wrong_shape};
 use crate::options;
-use crate::record::record;
+use crate::record::{Reduced, record};
 use crate::sfm::wrapper::wrapper;
 use epipole::calibration::{self, Pattern};
 use epipole::nalgebra::Point2;
@@ -12,7 +12,6 @@ use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
 /// Flat board with marks at known positions: x along its columns, y along its rows, z = 0.
 ///
@@ -131,8 +130,7 @@ impl Board {
     /// Returns the positions of all marks on the board, meters, shape (N, 2).
     fn marks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let indices = 0..self.board.num_marks();
-        let rows: Vec<_> = indices.map(|index| self.board.mark(index).coords).collect();
-        from_rows(py, &rows)
+        from_rows(py, indices.map(|index| self.board.mark(index).coords))
     }
 
     /// Returns the black shapes of the board.
@@ -145,12 +143,11 @@ impl Board {
         let corners = drawing.rectangles.iter().flatten();
         let numbers: Vec<f64> = corners.flat_map(|corner| [corner.x, corner.y]).collect();
         let rectangles = PyArray1::from_vec(py, numbers);
-        let disks: Vec<_> = drawing.disks.iter().map(|disk| disk.coords).collect();
         Ok(BoardDrawing {
             rectangles: rectangles
                 .reshape([drawing.rectangles.len(), 2, 2])?
                 .unbind(),
-            disks: from_rows(py, &disks)?.unbind(),
+            disks: from_points(py, &drawing.disks)?.unbind(),
             disk_radius: drawing.disk_radius,
         })
     }
@@ -165,9 +162,7 @@ impl Board {
             .is_ok_and(|other| other.get().board == self.board)
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (board, (columns, rows)) = (slf.get(), slf.get().size);
         let pattern = board.pattern(slf.py())?;
         let arguments = (pattern, columns, rows, board.square_m()).into_pyobject(slf.py())?;
@@ -223,8 +218,7 @@ impl BoardView {
     fn pixels<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let hidden = Point2::new(f64::NAN, f64::NAN);
         let pixels = self.0.pixels.iter();
-        let rows: Vec<_> = pixels.map(|pixel| pixel.unwrap_or(hidden).coords).collect();
-        from_rows(py, &rows)
+        from_rows(py, pixels.map(|pixel| pixel.unwrap_or(hidden).coords))
     }
 
     /// Returns the visible marks with their pixels.
@@ -239,8 +233,8 @@ impl BoardView {
         py: Python<'py>,
     ) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray2<f64>>)> {
         let marks = PyArray1::from_iter(py, self.0.visible().map(|(mark, _)| mark as i64));
-        let pixels: Vec<_> = self.0.visible().map(|(_, pixel)| pixel.coords).collect();
-        Ok((marks, from_rows(py, &pixels)?))
+        let pixels = self.0.visible().map(|(_, pixel)| pixel.coords);
+        Ok((marks, from_rows(py, pixels)?))
     }
 
     /// Returns the number of visible marks.

@@ -4,9 +4,9 @@ use super::board::{Board, BoardView};
 use crate::arrays::matrix;
 use crate::camera::{Camera, Intrinsics, RigidTransform};
 use crate::errors::OrRaise;
+use crate::progress;
 use crate::record::record;
 use crate::sfm::wrapper::wrapper;
-use crate::{options, progress};
 use epipole::calibration::{self, CalibrationWarning as Warning};
 use numpy::PyArray1;
 use numpy::prelude::*;
@@ -145,10 +145,9 @@ pub(super) fn calibrate(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Calibration> {
-    let options = options::read(options)?;
     let (board, views) = (&board.board, self::views(views));
-    let found = progress::run(py, progress, |monitor| {
-        calibration::calibrate(board, &views, size, &options, monitor)
+    let found = progress::run_with(py, progress, options, |options, monitor| {
+        calibration::calibrate(board, &views, size, options, monitor)
     })?;
     let view = |view: Option<calibration::CalibratedView>| {
         view.map(|view| Py::new(py, CalibratedView(view)))

@@ -1,7 +1,7 @@
 //! Boards and markers in photos, and rendered photos of boards.
 
 use super::board::{Board, BoardView};
-use crate::arrays::from_rows;
+use crate::arrays::from_points;
 use crate::camera::{Camera, RigidTransform};
 use crate::images::{from_gray, require_size, unit_gray};
 use crate::record::record;
@@ -279,14 +279,13 @@ pub(super) fn detect_markers(
     let py = image.py();
     let image = unit_gray("image", image)?;
     let dictionary = self::dictionary("dictionary", dictionary)?;
-    let options = options::read(options)?;
-    let markers = progress::run(py, progress, |monitor| {
-        calibration::detect_markers(&image, dictionary, &options, monitor)
+    let markers = progress::run_with(py, progress, options, |options, monitor| {
+        calibration::detect_markers(&image, dictionary, options, monitor)
     })?;
     let give = |marker: &calibration::Marker| {
         Ok(Marker {
             id: marker.id,
-            corners: from_rows(py, &marker.corners.map(|corner| corner.coords))?.unbind(),
+            corners: from_points(py, &marker.corners)?.unbind(),
             hamming: marker.hamming,
         })
     };

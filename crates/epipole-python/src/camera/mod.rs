@@ -14,6 +14,7 @@ pub(crate) use rigid::{RigidTransform, rotation};
 
 use crate::arrays::{Batch, from_matrix, vector};
 use crate::errors::OrRaise;
+use crate::register::{classes, functions};
 use epipole::camera;
 use epipole::nalgebra::{Point2, Point3};
 use numpy::PyArray2;
@@ -112,14 +113,7 @@ fn pixel_from_colmap<'py>(pixel: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAn
 }
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Camera>()?;
-    module.add_class::<Intrinsics>()?;
-    module.add_class::<Lens>()?;
-    module.add_class::<PosedCamera>()?;
-    module.add_class::<RigidTransform>()?;
-    module.add_function(wrap_pyfunction!(cross_matrix, module)?)?;
-    module.add_function(wrap_pyfunction!(relative_motion, module)?)?;
-    module.add_function(wrap_pyfunction!(look_at, module)?)?;
-    module.add_function(wrap_pyfunction!(pixel_to_colmap, module)?)?;
-    module.add_function(wrap_pyfunction!(pixel_from_colmap, module)?)
+    classes!(module: Camera, Intrinsics, Lens, PosedCamera, RigidTransform);
+    functions!(module: cross_matrix, relative_motion, look_at, pixel_to_colmap, pixel_from_colmap);
+    Ok(())
 }

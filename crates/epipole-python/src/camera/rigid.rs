@@ -1,13 +1,13 @@
 //! Rigid transforms.
 
 use crate::arrays::{Batch, from_matrix, from_vector, matrix, vector};
-use crate::record;
+use crate::record::{self, Reduced};
 use epipole::camera;
 use epipole::nalgebra::{Matrix3, Matrix4, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use numpy::{PyArray1, PyArray2};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 
 /// Maximum deviation of `Rᵀ R` from the identity, and of |q|² from 1, that counts as rounding.
 const ROUNDING: f64 = 1e-6;
@@ -140,17 +140,13 @@ impl RigidTransform {
     /// Returns
     /// -------
     /// RigidTransform or ndarray of the same shape
-    fn __matmul__<'py>(
-        &self,
-        py: Python<'py>,
-        other: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        if let Ok(other) = other.cast::<Self>() {
-            let product = Self(self.0 * other.get().0);
-            return Ok(product.into_pyobject(py)?.into_any());
+    fn __matmul__<'py>(&self, other: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(second) = other.cast::<Self>() {
+            let product = Self(self.0 * second.get().0);
+            return product.into_bound_py_any(other.py());
         }
         let apply = |x: &_| Ok(self.0.rotation * x + self.0.translation.vector);
-        Batch::<3>::read("points", other)?.vectors(py, apply)
+        Batch::<3>::read("points", other)?.vectors(other.py(), apply)
     }
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
@@ -161,9 +157,7 @@ impl RigidTransform {
         record::equal(slf, other, &["quaternion", "translation"])
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (class, fields) = record::reduce(slf, &["quaternion", "translation"])?;
         Ok((class.getattr("from_quaternion")?, fields))
     }

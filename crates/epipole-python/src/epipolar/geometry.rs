@@ -1,7 +1,9 @@
 //! Distances, lines, epipoles; F and E from cameras and from each other.
 
 use super::relative_pose::SelectedPose;
-use crate::arrays::{Batch, Pairs, from_matrix, from_vector, matrix, points2, vector};
+use crate::arrays::{
+    Batch, Pairs, from_matrix, from_vector, match_error, matrix, pixel_pairs, vector,
+};
 use crate::camera::{Camera, Intrinsics, PosedCamera, RigidTransform};
 use crate::errors::OrRaise;
 use epipole::epipolar::{self, Epipole};
@@ -9,33 +11,27 @@ use epipole::nalgebra::{Matrix3, Point2, SVector};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 
-/// Computes the Sampson distances of matches from a fundamental matrix.
-///
-/// Parameters
-/// ----------
-/// fundamental : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-///
-/// Examples
-/// --------
-/// >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
-/// >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
-/// array([0., 0.])
-#[pyfunction]
-pub(super) fn sampson_px<'py>(
-    fundamental: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        epipolar::sampson_px(&f, &Point2::from(*p), &Point2::from(*q))
-    })
+match_error! {
+    /// Computes the Sampson distances of matches from a fundamental matrix.
+    ///
+    /// Parameters
+    /// ----------
+    /// fundamental : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    ///
+    /// Examples
+    /// --------
+    /// >>> sideways = [[0, 0, 0], [0, 0, -1], [0, 1, 0]]
+    /// >>> sampson_px(sideways, [[0, 0], [10, 20]], [[5, 0], [14, 20]])
+    /// array([0., 0.])
+    fn sampson_px(fundamental, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        epipolar::sampson_px
+    }
 }
 
 /// Computes the tangent Sampson errors of matches between cameras with any lens.
@@ -60,7 +56,7 @@ pub(super) fn tangent_sampson_px<'py>(
     pixel1: &Bound<'py, PyAny>,
     pixel2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
+    Pairs::pixels(pixel1, pixel2)?.numbers(pixel1.py(), |p, q| {
         let observation1 = camera1.0.observe(&Point2::from(*p));
         let observation2 = camera2.0.observe(&Point2::from(*q));
         match (observation1, observation2) {
@@ -72,27 +68,21 @@ pub(super) fn tangent_sampson_px<'py>(
     })
 }
 
-/// Computes the symmetric epipolar distances of matches from a fundamental matrix.
-///
-/// Parameters
-/// ----------
-/// fundamental : array_like, shape (3, 3)
-/// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
-///
-/// Returns
-/// -------
-/// float or ndarray, shape (N,)
-///     Pixels.
-#[pyfunction]
-pub(super) fn symmetric_epipolar_px<'py>(
-    fundamental: &Bound<'py, PyAny>,
-    pixel1: &Bound<'py, PyAny>,
-    pixel2: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    Pairs::<2, 2>::read(("pixel1", pixel1), ("pixel2", pixel2))?.numbers(pixel1.py(), |p, q| {
-        epipolar::symmetric_epipolar_px(&f, &Point2::from(*p), &Point2::from(*q))
-    })
+match_error! {
+    /// Computes the symmetric epipolar distances of matches from a fundamental matrix.
+    ///
+    /// Parameters
+    /// ----------
+    /// fundamental : array_like, shape (3, 3)
+    /// pixel1, pixel2 : array_like, shape (2,) or (N, 2)
+    ///
+    /// Returns
+    /// -------
+    /// float or ndarray, shape (N,)
+    ///     Pixels.
+    fn symmetric_epipolar_px(fundamental, pixel1, pixel2) -> PyResult<Bound<'py, PyAny>> {
+        epipolar::symmetric_epipolar_px
+    }
 }
 
 /// Returns the rows of the eight-point system: ``row @ F.ravel() == x2 @ F @ x1``.
@@ -204,6 +194,14 @@ pub(super) fn epipoles<'py>(
     Ok((homogeneous(e1), homogeneous(e2)))
 }
 
+/// Computes one matrix from another, the argument `name`.
+fn convert<'py>(
+    (name, value): (&str, &Bound<'py, PyAny>),
+    compute: impl FnOnce(&Matrix3<f64>) -> epipole::Result<Matrix3<f64>>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    from_matrix(value.py(), &compute(&matrix(name, value)?).or_raise()?)
+}
+
 /// Returns the nearest matrix of rank 2, with unit norm.
 ///
 /// Parameters
@@ -217,8 +215,7 @@ pub(super) fn epipoles<'py>(
 pub(super) fn enforce_rank2<'py>(
     matrix: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let m = crate::arrays::matrix("matrix", matrix)?;
-    from_matrix(matrix.py(), &epipolar::enforce_rank2(&m).or_raise()?)
+    convert(("matrix", matrix), epipolar::enforce_rank2)
 }
 
 /// Returns the nearest essential matrix, with unit norm.
@@ -239,8 +236,7 @@ pub(super) fn enforce_rank2<'py>(
 pub(super) fn project_to_essential<'py>(
     matrix: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let m = crate::arrays::matrix("matrix", matrix)?;
-    from_matrix(matrix.py(), &epipolar::project_to_essential(&m).or_raise()?)
+    convert(("matrix", matrix), epipolar::project_to_essential)
 }
 
 /// Decomposes an essential matrix into its four motions.
@@ -291,7 +287,7 @@ pub(super) fn select_pose(
     k2: &Intrinsics,
 ) -> PyResult<SelectedPose> {
     let motions: Vec<_> = motions.into_iter().map(|motion| motion.0).collect();
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let selected = epipolar::select_pose(&motions, &pixels1, &pixels2, &k1.0, &k2.0).or_raise()?;
     Ok(SelectedPose {
         cam2_from_cam1: selected.cam2_from_cam1.into(),
@@ -372,9 +368,9 @@ pub(super) fn fundamental_from_essential<'py>(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let e = matrix("essential", essential)?;
-    let f = epipolar::fundamental_from_essential(&e, &k1.0, &k2.0).or_raise()?;
-    from_matrix(essential.py(), &f)
+    convert(("essential", essential), |e| {
+        epipolar::fundamental_from_essential(e, &k1.0, &k2.0)
+    })
 }
 
 /// Computes the essential matrix ``K2.T @ F @ K1``, with unit norm.
@@ -398,9 +394,9 @@ pub(super) fn essential_from_fundamental<'py>(
     k1: &Intrinsics,
     k2: &Intrinsics,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let f = matrix("fundamental", fundamental)?;
-    let e = epipolar::essential_from_fundamental(&f, &k1.0, &k2.0).or_raise()?;
-    from_matrix(fundamental.py(), &e)
+    convert(("fundamental", fundamental), |f| {
+        epipolar::essential_from_fundamental(f, &k1.0, &k2.0)
+    })
 }
 
 /// Computes the focal lengths of two cameras from their fundamental matrix.

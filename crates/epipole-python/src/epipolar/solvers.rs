@@ -2,7 +2,7 @@
 
 use super::relative_pose::{EssentialWithFocal, RelativePose};
 use crate::arrays::{
-    exact_points, exactly, from_matrices, from_matrix, matrix, points2, vector, vectors,
+    exact_points, exactly, from_matrices, from_matrix, matrix, pixel_pairs, vector, vectors,
 };
 use crate::camera::{Camera, RigidTransform};
 use crate::errors::OrRaise;
@@ -79,8 +79,7 @@ pub(super) fn fundamental_8point<'py>(
     pixels1: &Bound<'py, PyAny>,
     pixels2: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let f = epipolar::fundamental_8point(&first, &second).or_raise()?;
     from_matrix(pixels1.py(), &f)
 }
@@ -108,8 +107,7 @@ pub(super) fn fundamental_8point_explained(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
 ) -> PyResult<EightPoint> {
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let found = epipolar::fundamental_8point_explained(&first, &second).or_raise()?;
     eight_point(pixels1.py(), &found)
 }
@@ -137,8 +135,7 @@ pub(super) fn fundamental_8point_unnormalized(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
 ) -> PyResult<EightPoint> {
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let found = epipolar::fundamental_8point_unnormalized(&first, &second).or_raise()?;
     eight_point(pixels1.py(), &found)
 }
@@ -285,8 +282,7 @@ pub(super) fn refine_fundamental<'py>(
     loss: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let f = matrix("fundamental", fundamental)?;
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let loss = options::loss(loss)?;
     let refined = epipolar::refine_fundamental(&f, &first, &second, loss).or_raise()?;
     from_matrix(pixels1.py(), &refined)
@@ -324,8 +320,7 @@ pub(super) fn refine_relative_pose(
     camera2: &Camera,
     loss: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<RelativePose> {
-    let first = points2("pixels1", pixels1)?;
-    let second = points2("pixels2", pixels2)?;
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
     let loss = options::loss(loss)?;
     let cameras = [&camera1.0, &camera2.0];
     let refined = epipolar::refine_relative_pose(&pose.0, &first, &second, cameras, loss);

@@ -41,9 +41,9 @@ pub(super) fn harris_response<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = progress::run(image.py(), progress, |monitor| {
-        feature::harris_response(&pixels, k, &options, monitor)
+    let pixels = gray("image", image)?;
+    let response = progress::run_with(image.py(), progress, options, |options, monitor| {
+        feature::harris_response(&pixels, k, options, monitor)
     });
     from_gray(image.py(), response?)
 }
@@ -74,9 +74,9 @@ pub(super) fn min_eigenvalue_response<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let response = progress::run(image.py(), progress, |monitor| {
-        feature::min_eigenvalue_response(&pixels, &options, monitor)
+    let pixels = gray("image", image)?;
+    let response = progress::run_with(image.py(), progress, options, |options, monitor| {
+        feature::min_eigenvalue_response(&pixels, options, monitor)
     });
     from_gray(image.py(), response?)
 }
@@ -110,9 +110,9 @@ pub(super) fn good_features_to_track(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Keypoints> {
-    let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let corners = progress::run(image.py(), progress, |monitor| {
-        feature::good_features_to_track(&pixels, &options, monitor)
+    let pixels = gray("image", image)?;
+    let corners = progress::run_with(image.py(), progress, options, |options, monitor| {
+        feature::good_features_to_track(&pixels, options, monitor)
     })?;
     Keypoints::give(image.py(), &corners)
 }
@@ -189,5 +189,5 @@ pub(super) fn refine_corners<'py>(
     });
     let refined = refined?.into_iter();
     let or_nan = refined.map(|corner| corner.map_or(Vector2::repeat(f64::NAN), |c| c.coords));
-    from_rows(image.py(), &or_nan.collect::<Vec<_>>())
+    from_rows(image.py(), or_nan)
 }

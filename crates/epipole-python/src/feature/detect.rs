@@ -3,8 +3,11 @@
 use super::descriptors::{Features, give_descriptors};
 use super::keypoints::keypoints;
 use crate::images::{from_gray, gray, rgb, unit_gray};
-use crate::{options, progress};
+use crate::options::{self, Options};
+use crate::progress;
 use epipole::feature;
+use epipole::imaging::GrayImage32;
+use epipole::progress::Monitor;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,6 +28,20 @@ pub(super) fn photo_to_gray<'py>(photo: &Bound<'py, PyAny>) -> PyResult<Bound<'p
     let color = rgb("photo", photo)?;
     let gray = progress::detach(photo.py(), || feature::photo_to_gray(&color));
     from_gray(photo.py(), gray)
+}
+
+/// Detects features by a function of the library.
+fn detect<O: Options>(
+    image: &Bound<'_, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'_, PyDict>>,
+    detector: fn(&GrayImage32, &O, &mut dyn Monitor) -> epipole::Result<feature::Features>,
+) -> PyResult<Features> {
+    let pixels = unit_gray("image", image)?;
+    let features = progress::run_with(image.py(), progress, options, |options, monitor| {
+        detector(&pixels, options, monitor)
+    })?;
+    Features::give(image.py(), &features)
 }
 
 /// Detects the features of an image, strongest first.
@@ -55,11 +72,7 @@ pub(super) fn detect_features(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Features> {
-    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let features = progress::run(image.py(), progress, |monitor| {
-        feature::detect_features(&pixels, &options, monitor)
-    })?;
-    Features::give(image.py(), &features)
+    detect(image, progress, options, feature::detect_features)
 }
 
 /// Detects the SIFT features of an image, strongest first.
@@ -90,11 +103,7 @@ pub(super) fn detect_sift(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Features> {
-    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let features = progress::run(image.py(), progress, |monitor| {
-        feature::detect_sift(&pixels, &options, monitor)
-    })?;
-    Features::give(image.py(), &features)
+    detect(image, progress, options, feature::detect_sift)
 }
 
 /// Detects the ORB features of an image, strongest first.
@@ -125,11 +134,7 @@ pub(super) fn detect_orb(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Features> {
-    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let features = progress::run(image.py(), progress, |monitor| {
-        feature::detect_orb(&pixels, &options, monitor)
-    })?;
-    Features::give(image.py(), &features)
+    detect(image, progress, options, feature::detect_orb)
 }
 
 /// Computes SIFT descriptors at given positions, scales and directions.

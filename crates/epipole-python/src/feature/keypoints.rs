@@ -101,13 +101,13 @@ impl Keypoints {
 impl Keypoints {
     /// Converts a list to a Python object.
     pub(crate) fn give(py: Python<'_>, keypoints: &[Keypoint]) -> PyResult<Self> {
-        let points: Vec<_> = keypoints.iter().map(|k| k.point().coords).collect();
+        let points = keypoints.iter().map(|k| k.point().coords);
         let floats = |of: fn(&Keypoint) -> f32| {
             PyArray1::from_vec(py, keypoints.iter().map(of).collect()).unbind()
         };
         let octaves = keypoints.iter().map(|k| k.octave).collect();
         Ok(Self {
-            points: from_rows(py, &points)?.unbind(),
+            points: from_rows(py, points)?.unbind(),
             scales_px: floats(|k| k.scale_px),
             angles_rad: floats(|k| k.angle_rad),
             responses: floats(|k| k.response),

@@ -3,8 +3,8 @@
 use super::descriptors::descriptors;
 use crate::errors::OrRaise;
 use crate::images::column;
-use crate::record::record;
-use crate::{options, progress};
+use crate::progress;
+use crate::record::{record, rows};
 use epipole::feature;
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2};
@@ -24,12 +24,7 @@ record! {
     }
 }
 
-#[pymethods]
-impl Matches {
-    fn __len__(&self, py: Python<'_>) -> usize {
-        self.indices.bind(py).shape()[0]
-    }
-}
+rows!(Matches: indices);
 
 record! {
     /// The two nearest descriptors for each descriptor.
@@ -43,12 +38,7 @@ record! {
     }
 }
 
-#[pymethods]
-impl Neighbors {
-    fn __len__(&self, py: Python<'_>) -> usize {
-        self.indices.bind(py).len()
-    }
-}
+rows!(Neighbors: indices);
 
 /// Matches two lists of descriptors, in the order of the first.
 ///
@@ -88,9 +78,8 @@ pub(super) fn match_descriptors(
     let py = descriptors1.py();
     let first = descriptors("descriptors1", descriptors1)?;
     let second = descriptors("descriptors2", descriptors2)?;
-    let options = options::read(options)?;
-    let matches = progress::run(py, progress, |monitor| {
-        feature::match_descriptors(&first, &second, &options, monitor)
+    let matches = progress::run_with(py, progress, options, |options, monitor| {
+        feature::match_descriptors(&first, &second, options, monitor)
     })?;
     let indices = matches
         .iter()

@@ -13,6 +13,7 @@ mod window;
 pub(crate) use descriptors::{descriptors, give_descriptors};
 pub(crate) use keypoints::{Keypoints, keypoints};
 
+use crate::register::{classes, functions};
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -24,33 +25,29 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::feature::RefineOptions::default())?;
     crate::options::declare(module, &epipole::feature::MatchOptions::default())?;
     crate::options::declare(module, &epipole::feature::TrackOptions::default())?;
-    module.add_class::<keypoints::Keypoints>()?;
-    module.add_class::<descriptors::Features>()?;
-    module.add_class::<matching::Matches>()?;
-    module.add_class::<matching::Neighbors>()?;
-    module.add_class::<scale_space::ScaleOctave>()?;
-    module.add_class::<scale_space::ScaleSpace>()?;
-    module.add_class::<tensor::StructureTensor>()?;
-    module.add_class::<window::ShiftSurface>()?;
-    module.add_class::<window::WindowTensor>()?;
-    module.add_class::<track::Tracks>()?;
-    module.add_function(wrap_pyfunction!(detect::photo_to_gray, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::detect_features, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::detect_sift, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::detect_orb, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::describe_sift, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::sift_directions, module)?)?;
-    module.add_function(wrap_pyfunction!(detect::describe_patches, module)?)?;
-    module.add_function(wrap_pyfunction!(scale_space::scale_space, module)?)?;
-    module.add_function(wrap_pyfunction!(corners::harris_response, module)?)?;
-    module.add_function(wrap_pyfunction!(corners::min_eigenvalue_response, module)?)?;
-    module.add_function(wrap_pyfunction!(corners::good_features_to_track, module)?)?;
-    module.add_function(wrap_pyfunction!(corners::non_maximum_suppression, module)?)?;
-    module.add_function(wrap_pyfunction!(corners::refine_corners, module)?)?;
-    module.add_function(wrap_pyfunction!(tensor::structure_tensor, module)?)?;
-    module.add_function(wrap_pyfunction!(window::shift_surface, module)?)?;
-    module.add_function(wrap_pyfunction!(matching::match_descriptors, module)?)?;
-    module.add_function(wrap_pyfunction!(matching::nearest_two, module)?)?;
-    module.add_function(wrap_pyfunction!(matching::nearest_few, module)?)?;
-    module.add_function(wrap_pyfunction!(track::track_lucas_kanade, module)?)
+    classes!(module:
+        keypoints::{Keypoints},
+        descriptors::{Features},
+        matching::{Matches, Neighbors},
+        scale_space::{ScaleOctave, ScaleSpace},
+        tensor::{StructureTensor},
+        window::{ShiftSurface, WindowTensor},
+        track::{Tracks}
+    );
+    functions!(module:
+        detect::{
+            photo_to_gray, detect_features, detect_sift, detect_orb, describe_sift, sift_directions,
+            describe_patches
+        },
+        scale_space::{scale_space},
+        corners::{
+            harris_response, min_eigenvalue_response, good_features_to_track,
+            non_maximum_suppression, refine_corners
+        },
+        tensor::{structure_tensor},
+        window::{shift_surface},
+        matching::{match_descriptors, nearest_two, nearest_few},
+        track::{track_lucas_kanade}
+    );
+    Ok(())
 }

@@ -1,11 +1,12 @@
 //! Scale space of SIFT.
 
-use crate::arrays::vector;
+use crate::arrays::{from_rows, vector};
 use crate::images::{field, unit_gray};
+use crate::progress;
 use crate::record::{plain_class, record};
-use crate::{options, progress};
 use epipole::feature;
 use epipole::imaging::GrayImage32;
+use epipole::nalgebra::Vector2;
 use numpy::prelude::*;
 use numpy::{PyArray1, PyArray2, PyArray3};
 use pyo3::prelude::*;
@@ -118,10 +119,7 @@ impl ScaleSpace {
     ///     Blur in pixels and difference, by increasing blur.
     fn answers<'py>(&self, py: Python<'py>, u: f64, v: f64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let answers = self.core.answers(u, v).into_iter();
-        let rows: Vec<_> = answers
-            .map(|(sigma, value)| [sigma, value].into())
-            .collect();
-        crate::arrays::from_rows::<2>(py, &rows)
+        from_rows(py, answers.map(|(sigma, value)| Vector2::new(sigma, value)))
     }
 }
 
@@ -153,9 +151,9 @@ pub(super) fn scale_space(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<ScaleSpace> {
     let py = image.py();
-    let (pixels, options) = (unit_gray("image", image)?, options::read(options)?);
-    let core = progress::run(py, progress, |monitor| {
-        feature::scale_space(&pixels, &options, monitor)
+    let pixels = unit_gray("image", image)?;
+    let core = progress::run_with(py, progress, options, |options, monitor| {
+        feature::scale_space(&pixels, options, monitor)
     })?;
     let octaves = core.octaves.iter();
     let octaves: PyResult<Vec<_>> = octaves

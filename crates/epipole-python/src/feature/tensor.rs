@@ -2,8 +2,8 @@
 
 use super::window::WindowTensor;
 use crate::images::{field, from_gray, gray};
+use crate::progress;
 use crate::record::record;
-use crate::{options, progress};
 use epipole::feature;
 use numpy::PyArray2;
 use numpy::prelude::*;
@@ -99,9 +99,9 @@ pub(super) fn structure_tensor(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<StructureTensor> {
     let py = image.py();
-    let (pixels, options) = (gray("image", image)?, options::read(options)?);
-    let tensor = progress::run(py, progress, |monitor| {
-        feature::structure_tensor(&pixels, &options, monitor)
+    let pixels = gray("image", image)?;
+    let tensor = progress::run_with(py, progress, options, |options, monitor| {
+        feature::structure_tensor(&pixels, options, monitor)
     })?;
     Ok(StructureTensor {
         uu: from_gray(py, tensor.uu)?.unbind(),

@@ -2,8 +2,8 @@
 
 use crate::arrays::{from_rows, points2};
 use crate::images::unit_gray;
-use crate::record::record;
-use crate::{options, progress};
+use crate::progress;
+use crate::record::{record, rows};
 use epipole::feature::{self, Track};
 use epipole::nalgebra::Vector2;
 use numpy::prelude::*;
@@ -27,12 +27,7 @@ record! {
     }
 }
 
-#[pymethods]
-impl Tracks {
-    fn __len__(&self, py: Python<'_>) -> usize {
-        self.found.bind(py).len()
-    }
-}
+rows!(Tracks: found);
 
 /// Tracks points from one image to the next (Lucas and Kanade, on a pyramid).
 ///
@@ -68,22 +63,20 @@ pub(super) fn track_lucas_kanade(
     let py = first.py();
     let (first, second) = (unit_gray("first", first)?, unit_gray("second", second)?);
     let points = points2("points", points)?;
-    let options = options::read(options)?;
-    let tracks = progress::run(py, progress, |monitor| {
-        feature::track_lucas_kanade(&first, &second, &points, &options, monitor)
+    let tracks = progress::run_with(py, progress, options, |options, monitor| {
+        feature::track_lucas_kanade(&first, &second, &points, options, monitor)
     });
     let tracks = tracks?;
     let place = |track: &Option<Track>| match track {
         Some(track) => track.point.coords,
         None => Vector2::repeat(f64::NAN),
     };
-    let points: Vec<_> = tracks.iter().map(place).collect();
     let found: Vec<bool> = tracks.iter().map(Option::is_some).collect();
     let residual = |track: &Option<Track>| track.map_or(f32::NAN, |track| track.residual);
     let back = |track: &Option<Track>| track.and_then(|track| track.forward_backward_px);
     let backs = tracks.iter().map(|track| back(track).unwrap_or(f64::NAN));
     Ok(Tracks {
-        points: from_rows(py, &points)?.unbind(),
+        points: from_rows(py, tracks.iter().map(place))?.unbind(),
         found: found.to_pyarray(py).unbind(),
         residuals: PyArray1::from_vec(py, tracks.iter().map(residual).collect()).unbind(),
         forward_backward_px: PyArray1::from_vec(py, backs.collect()).unbind(),

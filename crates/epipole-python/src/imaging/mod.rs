@@ -8,6 +8,7 @@ mod pyramid;
 mod resize;
 mod warp;
 
+use crate::register::{classes, functions};
 use epipole::imaging;
 use pyo3::prelude::*;
 
@@ -23,36 +24,20 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let [red, green, blue] = exact.map(|weight| weight.unwrap_or(f64::NAN));
         module.add(name, (red, green, blue))?;
     }
-    module.add_class::<gradient::Gradient>()?;
-    module.add_class::<integral::IntegralImage>()?;
-    module.add_function(wrap_pyfunction!(convert::gray_to_f32, module)?)?;
-    module.add_function(wrap_pyfunction!(convert::gray_to_u8, module)?)?;
-    module.add_function(wrap_pyfunction!(convert::rgb_to_gray, module)?)?;
-    module.add_function(wrap_pyfunction!(convert::rgb_to_gray_f32, module)?)?;
-    module.add_function(wrap_pyfunction!(filter::correlate, module)?)?;
-    module.add_function(wrap_pyfunction!(filter::separable_filter, module)?)?;
-    module.add_function(wrap_pyfunction!(filter::noise_gain, module)?)?;
-    module.add_function(wrap_pyfunction!(filter::gaussian_kernel, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        filter::gaussian_derivative_kernels,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(filter::gaussian_blur, module)?)?;
-    module.add_function(wrap_pyfunction!(filter::box_filter, module)?)?;
-    module.add_function(wrap_pyfunction!(gradient::derivative, module)?)?;
-    module.add_function(wrap_pyfunction!(gradient::centered_difference, module)?)?;
-    module.add_function(wrap_pyfunction!(gradient::sobel, module)?)?;
-    module.add_function(wrap_pyfunction!(gradient::gaussian_derivative, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::pyramid_down, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::pyramid_up, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::gaussian_pyramid, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::laplacian_pyramid, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::from_laplacian_pyramid, module)?)?;
-    module.add_function(wrap_pyfunction!(pyramid::sharpness, module)?)?;
-    module.add_function(wrap_pyfunction!(resize::resize, module)?)?;
-    module.add_function(wrap_pyfunction!(resize::reduce_rgb, module)?)?;
-    module.add_function(wrap_pyfunction!(resize::sample_bilinear, module)?)?;
-    module.add_function(wrap_pyfunction!(resize::sample_bicubic, module)?)?;
-    module.add_function(wrap_pyfunction!(warp::warp_affine, module)?)?;
-    module.add_function(wrap_pyfunction!(warp::warp_perspective, module)?)
+    classes!(module: gradient::{Gradient}, integral::{IntegralImage});
+    functions!(module:
+        convert::{gray_to_f32, gray_to_u8, rgb_to_gray, rgb_to_gray_f32},
+        filter::{
+            correlate, separable_filter, noise_gain, gaussian_kernel, gaussian_derivative_kernels,
+            gaussian_blur, box_filter
+        },
+        gradient::{derivative, centered_difference, sobel, gaussian_derivative},
+        pyramid::{
+            pyramid_down, pyramid_up, gaussian_pyramid, laplacian_pyramid, from_laplacian_pyramid,
+            sharpness
+        },
+        resize::{resize, reduce_rgb, sample_bilinear, sample_bicubic},
+        warp::{warp_affine, warp_perspective}
+    );
+    Ok(())
 }

@@ -1,6 +1,7 @@
 //! Image pyramids.
 
-use crate::images::{Gray, field, from_gray, gray, require_size};
+use super::resize::with_size;
+use crate::images::{Gray, field, from_gray, gray};
 use crate::progress;
 use epipole::imaging::{self, Border};
 use numpy::PyArray2;
@@ -55,12 +56,8 @@ pub(super) fn pyramid_up<'py>(
     width: u32,
     height: u32,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let gray = Gray::read("image", image)?;
-    require_size(width, height)?;
-    let double = progress::detach(image.py(), || {
-        imaging::pyramid_up(&gray.pixels, width, height)
-    });
-    gray.give(image.py(), double)
+    let double = |image: &_, width, height| Ok(imaging::pyramid_up(image, width, height));
+    with_size(image, width, height, double)
 }
 
 /// Downscales an image repeatedly by `pyramid_down`; the list starts with the image.

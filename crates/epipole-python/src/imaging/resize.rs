@@ -34,10 +34,20 @@ pub(super) fn resize<'py>(
     width: u32,
     height: u32,
 ) -> PyResult<Bound<'py, PyAny>> {
+    with_size(image, width, height, imaging::resize)
+}
+
+/// Computes a gray image of a given size.
+pub(super) fn with_size<'py>(
+    image: &Bound<'py, PyAny>,
+    width: u32,
+    height: u32,
+    compute: fn(&GrayImage32, u32, u32) -> epipole::Result<GrayImage32>,
+) -> PyResult<Bound<'py, PyAny>> {
     let gray = Gray::read("image", image)?;
     require_size(width, height)?;
-    let resized = progress::detach(image.py(), || imaging::resize(&gray.pixels, width, height));
-    gray.give(image.py(), resized.or_raise()?)
+    let result = progress::detach(image.py(), || compute(&gray.pixels, width, height));
+    gray.give(image.py(), result.or_raise()?)
 }
 
 /// Downscales a color image to at most `max_pixels` pixels, if it has more.

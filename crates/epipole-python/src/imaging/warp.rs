@@ -4,9 +4,37 @@ use crate::arrays::matrix;
 use crate::images::{Image, require_size, same_kind};
 use crate::{options, progress};
 use epipole::imaging::{self, WarpOptions};
-use epipole::nalgebra::{Matrix2x3, Matrix3};
+use epipole::nalgebra::{Matrix2x3, Matrix3, SMatrix};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+
+/// Map from pixels of an image to pixels of the result.
+enum Map {
+    Affine(Matrix2x3<f64>),
+    Perspective(Matrix3<f64>),
+}
+
+/// Warps an image by a map, given as a matrix of R rows.
+fn warp<'py, const R: usize>(
+    image: &Bound<'py, PyAny>,
+    out_from_image: &Bound<'py, PyAny>,
+    progress: Option<Py<PyAny>>,
+    options: Option<&Bound<'py, PyDict>>,
+    map: fn(SMatrix<f64, R, 3>) -> Map,
+) -> PyResult<Bound<'py, PyAny>> {
+    let source = Image::read("image", image)?;
+    let map = map(matrix("out_from_image", out_from_image)?);
+    let options = warp_options(&source, options)?;
+    let py = image.py();
+    let warped = same_kind!(&source, |pixels| {
+        let warped = progress::run(py, progress, |monitor| match &map {
+            Map::Affine(map) => imaging::warp_affine(pixels, map, &options, monitor),
+            Map::Perspective(map) => imaging::warp_perspective(pixels, map, &options, monitor),
+        });
+        warped?
+    });
+    warped.give(py)
+}
 
 /// Warps an image by an affine map, as OpenCV's `warpAffine`.
 ///
@@ -40,17 +68,7 @@ pub(super) fn warp_affine<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let source = Image::read("image", image)?;
-    let map: Matrix2x3<f64> = matrix("out_from_image", out_from_image)?;
-    let options = warp_options(&source, options)?;
-    let py = image.py();
-    let warped = same_kind!(&source, |pixels| {
-        let warped = progress::run(py, progress, |monitor| {
-            imaging::warp_affine(pixels, &map, &options, monitor)
-        });
-        warped?
-    });
-    warped.give(py)
+    warp(image, out_from_image, progress, options, Map::Affine)
 }
 
 /// Warps an image by a homography, as OpenCV's `warpPerspective`.
@@ -85,17 +103,7 @@ pub(super) fn warp_perspective<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let source = Image::read("image", image)?;
-    let map: Matrix3<f64> = matrix("out_from_image", out_from_image)?;
-    let options = warp_options(&source, options)?;
-    let py = image.py();
-    let warped = same_kind!(&source, |pixels| {
-        let warped = progress::run(py, progress, |monitor| {
-            imaging::warp_perspective(pixels, &map, &options, monitor)
-        });
-        warped?
-    });
-    warped.give(py)
+    warp(image, out_from_image, progress, options, Map::Perspective)
 }
 
 /// Reads options, with the size of the image as the default size of the result.

@@ -3,6 +3,7 @@
 use super::source::{Source, format_of, or_raise, write};
 use crate::arrays::from_rows;
 use crate::camera::{Camera, RigidTransform};
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::wrapper;
 use epipole_io::camera::{self, CameraFormat};
 use numpy::PyArray2;
@@ -217,8 +218,7 @@ fn read_q<'py>(source: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray2<f64>>
     let py = source.py();
     let source = Source::read(source)?;
     let q = source.done(camera::read_q(&source.bytes))?;
-    let rows: Vec<_> = (0..4).map(|row| q.row(row).transpose()).collect();
-    from_rows(py, &rows)
+    from_rows(py, (0..4).map(|row| q.row(row).transpose()))
 }
 
 /// Writes cameras with all digits.
@@ -244,9 +244,7 @@ fn write_cameras(path: &Bound<'_, PyAny>, cameras: &Cameras, format: &str) -> Py
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<NamedCamera>()?;
-    module.add_class::<Cameras>()?;
-    module.add_function(wrap_pyfunction!(read_cameras, module)?)?;
-    module.add_function(wrap_pyfunction!(read_q, module)?)?;
-    module.add_function(wrap_pyfunction!(write_cameras, module)?)
+    classes!(module: NamedCamera, Cameras);
+    functions!(module: read_cameras, read_q, write_cameras);
+    Ok(())
 }

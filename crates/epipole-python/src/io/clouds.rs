@@ -1,8 +1,9 @@
 //! Files of point clouds, disparities, pose graphs and bundle adjustment problems.
 
 use super::source::{Source, or_raise, write};
-use crate::arrays::{from_rows, points3};
+use crate::arrays::{from_points, from_rows, points3};
 use crate::images::{column, disparity, from_disparity};
+use crate::register::functions;
 use crate::sfm::wrapper::{colors, give_colors, object, require_equal};
 use crate::sfm::{BalProblem, PoseGraph};
 use epipole::stereo::{DisparityImage, PointCloud};
@@ -13,14 +14,13 @@ use pyo3::prelude::*;
 
 /// Converts a cloud to Python, as `epipole.stereo.PointCloud`.
 pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<Bound<'py, PyAny>> {
-    let rows: Vec<_> = cloud.points.iter().map(|point| point.coords).collect();
     let colors = match cloud.colors.is_empty() {
         true => None,
         false => Some(give_colors(py, cloud.colors.iter().copied())?),
     };
     let normals = match cloud.normals.is_empty() {
         true => None,
-        false => Some(from_rows(py, &cloud.normals)?),
+        false => Some(from_rows(py, cloud.normals.iter().copied())?),
     };
     let confidences = match cloud.confidences.is_empty() {
         true => None,
@@ -30,7 +30,12 @@ pub(crate) fn give_cloud<'py>(py: Python<'py>, cloud: &PointCloud) -> PyResult<B
         py,
         "epipole.stereo",
         "PointCloud",
-        (from_rows(py, &rows)?, colors, normals, confidences),
+        (
+            from_points(py, &cloud.points)?,
+            colors,
+            normals,
+            confidences,
+        ),
     )
 }
 
@@ -272,13 +277,9 @@ fn write_bal(path: &Bound<'_, PyAny>, problem: &BalProblem) -> PyResult<()> {
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(read_ply, module)?)?;
-    module.add_function(wrap_pyfunction!(write_ply, module)?)?;
-    module.add_function(wrap_pyfunction!(read_pfm, module)?)?;
-    module.add_function(wrap_pyfunction!(write_pfm, module)?)?;
-    module.add_function(wrap_pyfunction!(write_png16, module)?)?;
-    module.add_function(wrap_pyfunction!(read_g2o, module)?)?;
-    module.add_function(wrap_pyfunction!(write_g2o, module)?)?;
-    module.add_function(wrap_pyfunction!(read_bal, module)?)?;
-    module.add_function(wrap_pyfunction!(write_bal, module)?)
+    functions!(module:
+        read_ply, write_ply, read_pfm, write_pfm, write_png16, read_g2o, write_g2o, read_bal,
+        write_bal
+    );
+    Ok(())
 }

@@ -1,23 +1,16 @@
 //! Files of matches and of points with their pixels.
 
 use super::source::{Source, format_of, write};
-use crate::arrays::{from_rows, points2};
+use crate::arrays::{from_points, pixel_pairs};
 use crate::images::column;
+use crate::register::functions;
 use crate::sfm::wrapper::require_equal;
-use epipole::nalgebra::{Point2, Point3};
 use epipole_io::matches::{self, MatchLayout};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
 /// Array of points.
 type Array<'py> = Bound<'py, PyArray2<f64>>;
-
-fn pixels<'py>(py: Python<'py>, points: &[Point2<f64>]) -> PyResult<Array<'py>> {
-    from_rows(
-        py,
-        &points.iter().map(|point| point.coords).collect::<Vec<_>>(),
-    )
-}
 
 /// Reads matches of two images: ``u1 v1 u2 v2`` per line, pixels.
 ///
@@ -43,7 +36,7 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
     let py = source.py();
     let source = Source::read(source)?;
     let [pixels1, pixels2] = source.done(matches::read_matches(&source.bytes))?;
-    Ok((pixels(py, &pixels1)?, pixels(py, &pixels2)?))
+    Ok((from_points(py, &pixels1)?, from_points(py, &pixels2)?))
 }
 
 /// Reads points of an image: ``u v`` per line, pixels.
@@ -72,7 +65,7 @@ fn read_matches<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'py>, Array<
 fn read_points<'py>(source: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
     let py = source.py();
     let source = Source::read(source)?;
-    pixels(py, &source.done(matches::read_points(&source.bytes))?)
+    from_points(py, &source.done(matches::read_points(&source.bytes))?)
 }
 
 /// Reads world points with their pixels: ``x y z u v`` per line.
@@ -98,12 +91,7 @@ fn read_points_with_pixels<'py>(source: &Bound<'py, PyAny>) -> PyResult<(Array<'
     let py = source.py();
     let source = Source::read(source)?;
     let found = source.done(matches::read_points_with_pixels(&source.bytes))?;
-    let rows: Vec<_> = found
-        .1
-        .iter()
-        .map(|point: &Point3<f64>| point.coords)
-        .collect();
-    Ok((pixels(py, &found.0)?, from_rows(py, &rows)?))
+    Ok((from_points(py, &found.0)?, from_points(py, &found.1)?))
 }
 
 /// Writes matches, one per line: ``u1 v1 u2 v2``, then distance and ratio if given.
@@ -133,7 +121,7 @@ fn write_matches(
     ratios: Option<&Bound<'_, PyAny>>,
     layout: &str,
 ) -> PyResult<()> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let count = pixels1.len();
     require_equal(("pixels1", count), ("pixels2", pixels2.len()))?;
     let numbers = |name: &str, value: Option<&Bound<'_, PyAny>>| {
@@ -157,8 +145,6 @@ fn write_matches(
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(read_matches, module)?)?;
-    module.add_function(wrap_pyfunction!(read_points, module)?)?;
-    module.add_function(wrap_pyfunction!(read_points_with_pixels, module)?)?;
-    module.add_function(wrap_pyfunction!(write_matches, module)?)
+    functions!(module: read_matches, read_points, read_points_with_pixels, write_matches);
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use super::clouds::take_cloud;
 use super::source::{or_raise, write};
 use crate::images::rgb;
+use crate::register::functions;
 use epipole::mvs::{Mesh, MeshTexture};
 use epipole::nalgebra::Point2;
 use epipole_io::mesh;
@@ -123,5 +124,6 @@ fn take_texture(texture: &Bound<'_, PyAny>, num_triangles: usize) -> PyResult<Me
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_function(wrap_pyfunction!(write_mesh, module)?)
+    functions!(module: write_mesh);
+    Ok(())
 }

@@ -3,10 +3,11 @@
 use super::clouds::give_cloud;
 use super::rig::Rig;
 use super::source::{Source, format_of, or_raise, os_error, path};
-use crate::arrays::{from_rows, from_vector, points2, points3};
+use crate::arrays::{from_points, from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, RigidTransform};
 use crate::progress;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::{
     colors, give_colors, give_index_rows, index_rows, require_equal, wrapper,
 };
@@ -98,8 +99,7 @@ impl ModelImage {
     /// Keypoints, pixels, shape (N, 2).
     #[getter]
     fn keypoints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.keypoints.iter().map(|pixel| pixel.coords).collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.keypoints)
     }
 
     /// Returns the center of the camera in the world, shape (3,).
@@ -252,13 +252,7 @@ impl Model {
     /// Points, shape (P, 3).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self
-            .0
-            .points
-            .iter()
-            .map(|point| point.position.coords)
-            .collect();
-        from_rows(py, &rows)
+        from_rows(py, self.0.points.iter().map(|point| point.position.coords))
     }
 
     /// Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint.
@@ -504,10 +498,7 @@ fn read_model_file(path: &Bound<'_, PyAny>) -> PyResult<ReadModel> {
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<ModelImage>()?;
-    module.add_class::<Rig>()?;
-    module.add_class::<Model>()?;
-    module.add_class::<ReadModel>()?;
-    module.add_function(wrap_pyfunction!(read_model_folder, module)?)?;
-    module.add_function(wrap_pyfunction!(read_model_file, module)?)
+    classes!(module: ModelImage, Rig, Model, ReadModel);
+    functions!(module: read_model_folder, read_model_file);
+    Ok(())
 }

@@ -7,6 +7,7 @@ use crate::images::{from_gray, from_rgb, rgb};
 use crate::math::Geodetic;
 use crate::progress;
 use crate::record::record;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::wrapper;
 use epipole_io::photo::{self, DecodeOptions, PixelRange, PrepareOptions};
 use numpy::PyArray3;
@@ -61,6 +62,28 @@ fn decode_options(
         .with_range(pixel_range(range)?))
 }
 
+/// Decodes an image by a function of the library.
+///
+/// * `give`: converts its pixels to an array
+fn decode<'py, I: Send>(
+    source: &Bound<'py, PyAny>,
+    options: &DecodeOptions,
+    decoder: fn(&[u8], &DecodeOptions) -> epipole_io::Result<photo::Decoded<I>>,
+    give: impl FnOnce(Python<'py>, I) -> PyResult<Bound<'py, PyAny>>,
+) -> PyResult<Decoded> {
+    let py = source.py();
+    let source = Source::read(source)?;
+    let decoded = source.done(progress::detach(py, || decoder(&source.bytes, options)))?;
+    Ok(Decoded {
+        image: give(py, decoded.image)?.unbind(),
+        focal_px: decoded.focal_px,
+        focal_mm: decoded.focal_mm,
+        place: decoded.place.map(Geodetic),
+        orientation: decoded.orientation.to_exif(),
+        range: decoded.range,
+    })
+}
+
 /// Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a color image, with its EXIF data.
 ///
 /// Parameters
@@ -94,19 +117,9 @@ fn decode_rgb(
     apply_orientation: bool,
     range: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Decoded> {
-    let py = source.py();
+    let give = |py, image| Ok(from_rgb(py, image)?.into_any());
     let options = decode_options(max_pixels, apply_orientation, range)?;
-    let source = Source::read(source)?;
-    let decoded = progress::detach(py, || photo::decode_rgb(&source.bytes, &options));
-    let decoded = source.done(decoded)?;
-    Ok(Decoded {
-        image: from_rgb(py, decoded.image)?.into_any().unbind(),
-        focal_px: decoded.focal_px,
-        focal_mm: decoded.focal_mm,
-        place: decoded.place.map(Geodetic),
-        orientation: decoded.orientation.to_exif(),
-        range: decoded.range,
-    })
+    decode(source, &options, photo::decode_rgb, give)
 }
 
 /// Decodes a PNG, JPEG, WebP, TIFF, BMP or PNM file to a gray image, with its EXIF data.
@@ -142,19 +155,9 @@ fn decode_gray(
     apply_orientation: bool,
     range: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Decoded> {
-    let py = source.py();
+    let give = |py, image| Ok(from_gray(py, image)?.into_any());
     let options = decode_options(max_pixels, apply_orientation, range)?;
-    let source = Source::read(source)?;
-    let decoded = progress::detach(py, || photo::decode_gray(&source.bytes, &options));
-    let decoded = source.done(decoded)?;
-    Ok(Decoded {
-        image: from_gray(py, decoded.image)?.into_any().unbind(),
-        focal_px: decoded.focal_px,
-        focal_mm: decoded.focal_mm,
-        place: decoded.place.map(Geodetic),
-        orientation: decoded.orientation.to_exif(),
-        range: decoded.range,
-    })
+    decode(source, &options, photo::decode_gray, give)
 }
 
 /// Reads width and height of an image before its orientation is applied, from the header alone.
@@ -366,10 +369,7 @@ fn prepare_photo(
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Decoded>()?;
-    module.add_class::<PreparedPhoto>()?;
-    module.add_function(wrap_pyfunction!(decode_rgb, module)?)?;
-    module.add_function(wrap_pyfunction!(decode_gray, module)?)?;
-    module.add_function(wrap_pyfunction!(sensor_size, module)?)?;
-    module.add_function(wrap_pyfunction!(prepare_photo, module)?)
+    classes!(module: Decoded, PreparedPhoto);
+    functions!(module: decode_rgb, decode_gray, sensor_size, prepare_photo);
+    Ok(())
 }

@@ -2,6 +2,7 @@
 
 use super::source::{Source, format_of, or_raise, write};
 use crate::camera::RigidTransform;
+use crate::register::{classes, functions};
 use crate::sfm::wrapper::{require_equal, wrapper};
 use epipole_io::trajectory::{self, TrajectoryFormat};
 use numpy::PyArray1;
@@ -128,7 +129,7 @@ fn write_trajectory(
 }
 
 pub(super) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<Trajectory>()?;
-    module.add_function(wrap_pyfunction!(read_trajectory, module)?)?;
-    module.add_function(wrap_pyfunction!(write_trajectory, module)?)
+    classes!(module: Trajectory);
+    functions!(module: read_trajectory, write_trajectory);
+    Ok(())
 }

@@ -3,9 +3,9 @@
 use super::depth_map::DepthMap;
 use super::view::MvsView;
 use crate::io::give_cloud;
+use crate::progress;
 use crate::record::plain_class;
 use crate::stereo::PointCloud;
-use crate::{options, progress};
 use epipole::mvs;
 use numpy::PyArray2;
 use numpy::prelude::*;
@@ -77,11 +77,10 @@ pub(super) fn mesh_depth_maps<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Mesh> {
-    let options = options::read(options)?;
     let views: Vec<mvs::MvsView> = views.into_iter().map(|view| view.0).collect();
     let maps: Vec<mvs::DepthMap> = maps.into_iter().map(|map| map.0).collect();
-    let mesh = progress::run(py, progress, |monitor| {
-        mvs::mesh_depth_maps(&views, &maps, &options, monitor)
+    let mesh = progress::run_with(py, progress, options, |options, monitor| {
+        mvs::mesh_depth_maps(&views, &maps, options, monitor)
     })?;
     let triangles: Vec<Vec<u32>> = mesh.triangles.iter().map(|row| row.to_vec()).collect();
     let triangles = match triangles.is_empty() {

@@ -13,14 +13,16 @@ use pythonize::{Depythonizer, pythonize};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+/// Option struct of the library, with defaults.
+pub(crate) trait Options: Default + Serialize + DeserializeOwned + Sync {}
+
+impl<T: Default + Serialize + DeserializeOwned + Sync> Options for T {}
+
 /// Reads keyword options on top of the defaults.
 ///
 /// # Errors
 /// `TypeError` for an unknown name or a wrong type, `ValueError` for a negative count.
-pub(crate) fn read<T>(options: Option<&Bound<'_, PyDict>>) -> PyResult<T>
-where
-    T: Default + Serialize + DeserializeOwned,
-{
+pub(crate) fn read<T: Options>(options: Option<&Bound<'_, PyDict>>) -> PyResult<T> {
     match options {
         Some(options) if !options.is_empty() => read_onto(&T::default(), options),
         _ => Ok(T::default()),

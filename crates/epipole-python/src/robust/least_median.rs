@@ -2,9 +2,9 @@
 
 use super::model::Callables;
 use super::report::alias;
+use crate::progress;
 use crate::record::record;
-use crate::{options, progress};
-use epipole::robust::{self, LeastMedianOptions};
+use epipole::robust;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
@@ -26,10 +26,7 @@ record! {
 impl LeastMedian {
     /// Supports ``LeastMedian[MyModel]`` in annotations.
     #[classmethod]
-    fn __class_getitem__<'py>(
-        cls: &Bound<'py, PyType>,
-        model: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn __class_getitem__(cls: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
         alias(cls, model)
     }
 }
@@ -90,11 +87,9 @@ pub(super) fn least_median(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<LeastMedian> {
-    let options: LeastMedianOptions = options::read(options)?;
     let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
-    let found = progress::run(py, progress, |monitor| {
-        let mut watch = raised.watch(monitor);
-        robust::least_median(model, &options, &mut watch)
+    let found = progress::run_with(py, progress, options, |options, monitor| {
+        robust::least_median(model, options, &mut raised.watch(monitor))
     });
     let found = raised.or(found)?;
     Ok(LeastMedian {

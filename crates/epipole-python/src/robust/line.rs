@@ -3,7 +3,7 @@
 use super::{RansacReport, estimate};
 use crate::arrays::{from_vector, points2};
 use crate::errors::OrRaise;
-use crate::options;
+use epipole::math::Line2;
 use epipole::robust::{self, LineEstimator};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -107,12 +107,8 @@ pub(super) fn estimate_line(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
     let points = points2("points", points)?;
-    let options = options::read(options)?;
-    let line = LineEstimator::new(&points).or_raise()?;
-    estimate(
-        py,
-        progress,
-        |monitor| robust::ransac(line, &options, monitor),
-        |model| Ok(from_vector(py, &model.homogeneous()).into_any()),
-    )
+    let give = |py, model: Line2| Ok(from_vector(py, &model.homogeneous()).into_any());
+    estimate(py, progress, options, give, |options, monitor| {
+        robust::ransac(LineEstimator::new(&points)?, options, monitor)
+    })
 }

@@ -1,5 +1,6 @@
 //! Robust estimation.
 
+mod estimate;
 mod least_median;
 mod line;
 mod model;
@@ -7,10 +8,12 @@ mod report;
 mod similarity;
 mod stepwise;
 
-pub(crate) use report::{RansacReport, estimate, stop_reason};
+pub(crate) use estimate::{estimate, estimator, give_matrix, give_object};
+pub(crate) use report::{RansacReport, stop_reason};
 
 use crate::errors::OrRaise;
 use crate::options;
+use crate::register::{classes, functions};
 use epipole::robust::{self, LeastMedianOptions, RansacOptions};
 use pyo3::prelude::*;
 
@@ -109,22 +112,17 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("FARTHEST_PX", robust::FARTHEST_PX)?;
     options::declare(module, &RansacOptions::default())?;
     options::declare(module, &LeastMedianOptions::default())?;
-    module.add_class::<RansacReport>()?;
-    module.add_class::<least_median::LeastMedian>()?;
-    module.add_class::<stepwise::Ransac>()?;
-    module.add_class::<stepwise::Trial>()?;
-    module.add_class::<similarity::PlaneSimilarity>()?;
-    module.add_function(wrap_pyfunction!(num_trials_with_replacement, module)?)?;
-    module.add_function(wrap_pyfunction!(num_trials_without_replacement, module)?)?;
-    module.add_function(wrap_pyfunction!(log10_false_alarms, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        line::fit_line_total_least_squares,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(line::fit_line_huber, module)?)?;
-    module.add_function(wrap_pyfunction!(line::estimate_line, module)?)?;
-    module.add_function(wrap_pyfunction!(similarity::fit_similarity, module)?)?;
-    module.add_function(wrap_pyfunction!(similarity::estimate_similarity, module)?)?;
-    module.add_function(wrap_pyfunction!(least_median::least_median, module)?)?;
-    module.add_function(wrap_pyfunction!(model::ransac, module)?)
+    classes!(module:
+        report::{RansacReport},
+        least_median::{LeastMedian},
+        stepwise::{Ransac, Trial},
+        similarity::{PlaneSimilarity}
+    );
+    functions!(module:
+        num_trials_with_replacement, num_trials_without_replacement, log10_false_alarms,
+        line::fit_line_total_least_squares, line::fit_line_huber, line::estimate_line,
+        similarity::fit_similarity, similarity::estimate_similarity, least_median::least_median,
+        model::ransac
+    );
+    Ok(())
 }

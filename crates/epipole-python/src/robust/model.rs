@@ -1,7 +1,6 @@
 //! RANSAC for models defined in Python.
 
 use super::{RansacReport, estimate};
-use crate::options;
 use epipole::progress::{Monitor, Status};
 use epipole::robust::{self, Data, Estimator, Problem};
 use numpy::PyArray1;
@@ -218,14 +217,10 @@ pub(super) fn ransac(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<RansacReport> {
-    let options = options::read(options)?;
     let (model, raised) = Callables::new(num_data, sample_size, fit, errors, refine);
-    let work = |monitor: &mut dyn Monitor| {
-        let mut watch = raised.watch(monitor);
-        robust::ransac(model, &options, &mut watch)
-    };
-    let found = estimate(py, progress, work, |best| {
-        Ok(best.model.clone_ref(py).into_bound(py))
+    let give = |py, best: Arc<Scored>| Ok(best.model.clone_ref(py).into_bound(py));
+    let found = estimate(py, progress, options, give, |options, monitor| {
+        robust::ransac(model, options, &mut raised.watch(monitor))
     });
     raised.or(found)
 }

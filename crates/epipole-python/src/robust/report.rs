@@ -1,8 +1,6 @@
 //! Report of a robust estimation.
 
-use crate::progress;
 use crate::record::record;
-use epipole::progress::Monitor;
 use epipole::robust::{self, StopReason};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -42,10 +40,7 @@ record! {
 impl RansacReport {
     /// Supports ``RansacReport[RelativePose]`` in annotations.
     #[classmethod]
-    fn __class_getitem__<'py>(
-        cls: &Bound<'py, PyType>,
-        model: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    fn __class_getitem__(cls: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
         alias(cls, model)
     }
 
@@ -70,12 +65,9 @@ impl RansacReport {
 }
 
 /// Returns the generic alias of a class with its model type.
-pub(super) fn alias<'py>(
-    class: &Bound<'py, PyType>,
-    model: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
+pub(super) fn alias(class: &Bound<'_, PyType>, model: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
     let types = class.py().import("types")?;
-    types.call_method1("GenericAlias", (class, model))
+    Ok(types.call_method1("GenericAlias", (class, model))?.unbind())
 }
 
 /// Returns the name of the reason.
@@ -86,21 +78,6 @@ pub(crate) fn stop_reason(stop: StopReason) -> String {
         StopReason::Interrupted => "interrupted",
     };
     name.to_owned()
-}
-
-/// Runs a robust estimation without the GIL and converts its report to Python objects.
-///
-/// * `model`: converts a model to a Python object
-///
-/// # Errors
-/// As [`progress::run`].
-pub(crate) fn estimate<'py, M: Send>(
-    py: Python<'py>,
-    progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&mut dyn Monitor) -> epipole::Result<robust::RansacReport<M>> + Send,
-    model: impl FnOnce(M) -> PyResult<Bound<'py, PyAny>>,
-) -> PyResult<RansacReport> {
-    RansacReport::give(py, progress::run(py, progress, work)?, model)
 }
 
 impl RansacReport {

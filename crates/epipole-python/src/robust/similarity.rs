@@ -1,15 +1,13 @@
 //! Similarities of the plane.
 
-use super::{RansacReport, estimate};
-use crate::arrays::{Batch, from_matrix, points2};
+use super::{RansacReport, estimator, give_object};
+use crate::arrays::{Batch, from_matrix, pixel_pairs};
 use crate::errors::OrRaise;
-use crate::options;
 use crate::record::record;
 use epipole::nalgebra::Point2;
 use epipole::robust;
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 record! {
     /// Rotation, scale and shift in the plane: ``u' = a*u - b*v + tu``, ``v' = b*u + a*v + tv``.
@@ -109,51 +107,36 @@ pub(super) fn fit_similarity(
     pixels1: &Bound<'_, PyAny>,
     pixels2: &Bound<'_, PyAny>,
 ) -> PyResult<PlaneSimilarity> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    Ok(robust::fit_similarity(&pixels1, &pixels2)
-        .or_raise()?
-        .into())
+    let [first, second] = pixel_pairs(pixels1, pixels2)?;
+    Ok(robust::fit_similarity(&first, &second).or_raise()?.into())
 }
 
-/// Estimates a similarity from matches with outliers, by RANSAC.
-///
-/// Parameters
-/// ----------
-/// pixels1, pixels2 : array_like, shape (N, 2)
-///     Matches.
-/// progress : callable, optional
-///     Called with the stage and the completed fraction.
-/// **options : RansacOptions
-///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
-///
-/// Returns
-/// -------
-/// RansacReport of PlaneSimilarity
-///     Its model is a `PlaneSimilarity`.
-///
-/// Raises
-/// ------
-/// epipole.TooFewError
-///     If there are fewer than 2 different matches.
-/// epipole.NoConsensusError
-///     If no similarity has 2 inliers.
-/// ValueError
-///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
-#[pyfunction]
-#[pyo3(signature = (pixels1, pixels2, *, progress=None, **options))]
-pub(super) fn estimate_similarity(
-    py: Python<'_>,
-    pixels1: &Bound<'_, PyAny>,
-    pixels2: &Bound<'_, PyAny>,
-    progress: Option<Py<PyAny>>,
-    options: Option<&Bound<'_, PyDict>>,
-) -> PyResult<RansacReport> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
-    let options = options::read(options)?;
-    estimate(
-        py,
-        progress,
-        |monitor| robust::estimate_similarity(&pixels1, &pixels2, &options, monitor),
-        |model| Ok(Bound::new(py, PlaneSimilarity::from(model))?.into_any()),
-    )
+estimator! {
+    /// Estimates a similarity from matches with outliers, by RANSAC.
+    ///
+    /// Parameters
+    /// ----------
+    /// pixels1, pixels2 : array_like, shape (N, 2)
+    ///     Matches.
+    /// progress : callable, optional
+    ///     Called with the stage and the completed fraction.
+    /// **options : RansacOptions
+    ///     For example ``max_error_px=1.0``, ``confidence=0.999``, ``seed=0``.
+    ///
+    /// Returns
+    /// -------
+    /// RansacReport of PlaneSimilarity
+    ///     Its model is a `PlaneSimilarity`.
+    ///
+    /// Raises
+    /// ------
+    /// epipole.TooFewError
+    ///     If there are fewer than 2 different matches.
+    /// epipole.NoConsensusError
+    ///     If no similarity has 2 inliers.
+    /// ValueError
+    ///     If ``max_error_px``, ``confidence`` or ``max_iterations`` is out of range.
+    fn estimate_similarity(pixels1, pixels2) -> PyResult<RansacReport> {
+        robust::estimate_similarity, give_object::<_, PlaneSimilarity>
+    }
 }

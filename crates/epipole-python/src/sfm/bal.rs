@@ -2,7 +2,7 @@
 
 use super::bundle::{give_pixels, observed};
 use super::wrapper::{give_index_rows, wrapper};
-use crate::arrays::{from_rows, points3, vectors};
+use crate::arrays::{from_points, from_rows, points3, vectors};
 use crate::errors::OrRaise;
 use crate::optim::LmReport;
 use crate::{options, progress};
@@ -61,14 +61,13 @@ impl BalProblem {
             let (f, k1, k2) = (camera.focal_px, camera.k1, camera.k2);
             SVector::<f64, 9>::from([r.x, r.y, r.z, t.x, t.y, t.z, f, k1, k2])
         };
-        from_rows(py, &self.0.cameras.iter().map(row).collect::<Vec<_>>())
+        from_rows(py, self.0.cameras.iter().map(row))
     }
 
     /// Points, shape (P, 3).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.points.iter().map(|point| point.coords).collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.points)
     }
 
     /// Index of the camera and of the point, int64 of shape (M, 2).
@@ -146,10 +145,9 @@ pub(super) fn adjust_bal(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(BalProblem, LmReport)> {
     let loss = options::loss(loss)?;
-    let options = options::read(options)?;
     let mut problem = problem.0.clone();
-    let report = progress::run(py, progress, |monitor| {
-        sfm::adjust_bal(&mut problem, &options, loss, monitor)
+    let report = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::adjust_bal(&mut problem, options, loss, monitor)
     })?;
     Ok((BalProblem(problem), LmReport::give(py, report)?))
 }

@@ -2,7 +2,7 @@
 
 use super::images::PositionPrior;
 use super::wrapper::{give_index_rows, give_indices, index_rows, indices, require_equal, wrapper};
-use crate::arrays::{from_rows, from_vector, points2, points3};
+use crate::arrays::{from_points, from_rows, from_vector, points2, points3};
 use crate::camera::{Camera, PosedCamera, RigidTransform};
 use crate::optim::LmReport;
 use crate::{options, progress};
@@ -124,8 +124,7 @@ impl Bundle {
     /// Points in the world, shape (P, 3).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.points.iter().map(|point| point.coords).collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.points)
     }
 
     /// Index of the camera and of the point, int64 of shape (M, 2).
@@ -220,8 +219,7 @@ pub(super) fn give_pixels<'py>(
     py: Python<'py>,
     observations: &[BundleObservation],
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let rows: Vec<_> = observations.iter().map(|o| o.pixel.coords).collect();
-    from_rows(py, &rows)
+    from_rows(py, observations.iter().map(|o| o.pixel.coords))
 }
 
 /// Options with arrays as lists, and priors as dictionaries.

@@ -3,7 +3,7 @@
 use super::wrapper::{
     colors, give_colors, give_index_rows, index_rows, object, require_equal, wrapper,
 };
-use crate::arrays::{from_rows, from_vector, points2, vector};
+use crate::arrays::{from_points, from_vector, points2, vector};
 use crate::camera::Camera;
 use crate::images::column;
 use epipole::feature::Match;
@@ -104,8 +104,7 @@ impl SfmImage {
     /// Keypoints, pixels, shape (N, 2).
     #[getter]
     fn keypoints<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self.0.keypoints.iter().map(|pixel| pixel.coords).collect();
-        from_rows(py, &rows)
+        from_points(py, &self.0.keypoints)
     }
 
     /// Colors of the keypoints, uint8 of shape (N, 3), or None.

@@ -4,13 +4,13 @@ use super::images::SfmInput;
 use super::reconstruction::Reconstruction;
 use super::wrapper::wrapper;
 use crate::record::record;
-use crate::steps::{take, with};
+use crate::steps::{self, Job, take, with};
 use crate::{options, progress};
+use epipole::progress::Monitor;
 use epipole::sfm;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::Mutex;
 
 /// One step of structure from motion or of odometry.
 ///
@@ -215,10 +215,9 @@ pub(super) fn reconstruct(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<SfmResult> {
-    let options = options::read(options)?;
     let input = &input.0;
-    let result = progress::run(py, progress, |monitor| {
-        sfm::reconstruct(input, &options, monitor)
+    let result = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::reconstruct(input, options, monitor)
     })?;
     Ok(SfmResult(result))
 }
@@ -242,7 +241,7 @@ pub(super) fn reconstruct(
 /// ValueError
 ///     If an option is out of range, or a match refers to a missing image or keypoint.
 #[pyclass(frozen, module = "epipole.sfm")]
-pub(super) struct IncrementalReconstruction(Mutex<Option<sfm::IncrementalReconstruction>>);
+pub(super) struct IncrementalReconstruction(Job<sfm::IncrementalReconstruction>);
 
 #[pymethods]
 impl IncrementalReconstruction {
@@ -254,12 +253,10 @@ impl IncrementalReconstruction {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let options = options::read(options)?;
-        let input = &input.0;
-        let started = progress::run(py, progress, |monitor| {
-            sfm::IncrementalReconstruction::new(input, &options, monitor)
-        })?;
-        Ok(Self(Mutex::new(Some(started))))
+        let start = |options: &_, monitor: &mut dyn Monitor| {
+            sfm::IncrementalReconstruction::new(&input.0, options, monitor)
+        };
+        Ok(Self(steps::start(py, progress, options, start)?))
     }
 
     /// Takes the next step and returns it; None after the last.
@@ -277,9 +274,8 @@ impl IncrementalReconstruction {
     ///     If the job is finished, or another thread uses it.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
-        with(&self.0, |work| {
-            Ok(progress::run(py, progress, |monitor| work.step(monitor))?.map(SfmStep))
-        })
+        let step = steps::step(&self.0, py, progress, sfm::IncrementalReconstruction::step);
+        Ok(step?.map(SfmStep))
     }
 
     /// Returns the component that currently grows, a `Reconstruction`; None between components.

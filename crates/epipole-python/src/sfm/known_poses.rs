@@ -3,7 +3,7 @@
 use super::images::SfmInput;
 use super::reconstruction::Reconstruction;
 use crate::camera::RigidTransform;
-use crate::{options, progress};
+use crate::progress;
 use epipole::sfm;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -43,13 +43,12 @@ pub(super) fn triangulate_tracks(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Reconstruction> {
-    let options = options::read(options)?;
     let input = &input.0;
     let poses: Vec<_> = (cam_from_world.into_iter())
         .map(|pose| pose.map(|pose| pose.0))
         .collect();
-    let found = progress::run(py, progress, |monitor| {
-        sfm::triangulate_tracks(input, &poses, &options, monitor)
+    let found = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::triangulate_tracks(input, &poses, options, monitor)
     })?;
     Ok(Reconstruction(found))
 }

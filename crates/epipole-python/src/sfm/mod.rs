@@ -23,6 +23,7 @@ pub(crate) use images::SfmImage;
 pub(crate) use pose_graph::PoseGraph;
 pub(crate) use reconstruction::Reconstruction;
 
+use crate::register::{classes, functions};
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -35,57 +36,33 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module,
         &epipole::sfm::TwoViewReconstructionOptions::default(),
     )?;
-    module.add_class::<similarity::Similarity3>()?;
-    module.add_class::<alignment::ErrorStatistics>()?;
-    module.add_class::<alignment::RelativePoseError>()?;
-    module.add_class::<bundle::Sensor>()?;
-    module.add_class::<bundle::Bundle>()?;
-    module.add_class::<BalProblem>()?;
-    module.add_class::<images::PositionPrior>()?;
-    module.add_class::<SfmImage>()?;
-    module.add_class::<images::PairMatches>()?;
-    module.add_class::<images::SfmInput>()?;
-    module.add_class::<photos::Photo>()?;
-    module.add_class::<photo_features::PhotoFeatures>()?;
-    module.add_class::<Reconstruction>()?;
-    module.add_class::<reconstruction::Localization>()?;
-    module.add_class::<incremental::SfmStep>()?;
-    module.add_class::<incremental::SfmResult>()?;
-    module.add_class::<incremental::IncrementalReconstruction>()?;
-    module.add_class::<incremental::WhyUnregistered>()?;
-    module.add_class::<odometry::OdometryResult>()?;
-    module.add_class::<odometry::Odometry>()?;
-    module.add_class::<PoseGraph>()?;
-    module.add_class::<pose_graph::PoseGraphReport>()?;
-    module.add_class::<loops::LoopClosure>()?;
-    module.add_class::<loops::ClosedPath>()?;
-    module.add_class::<tracks::VerifiedPair>()?;
-    module.add_class::<two_view::TwoViewReconstruction>()?;
-    module.add_function(wrap_pyfunction!(alignment::align_points, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        alignment::absolute_trajectory_error,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(alignment::relative_pose_error, module)?)?;
-    module.add_function(wrap_pyfunction!(bundle::adjust_bundle, module)?)?;
-    module.add_function(wrap_pyfunction!(bal::adjust_bal, module)?)?;
-    module.add_function(wrap_pyfunction!(incremental::reconstruct, module)?)?;
-    module.add_function(wrap_pyfunction!(incremental::why_unregistered, module)?)?;
-    module.add_function(wrap_pyfunction!(known_poses::triangulate_tracks, module)?)?;
-    module.add_function(wrap_pyfunction!(photos::photo_features, module)?)?;
-    module.add_function(wrap_pyfunction!(photos::match_features, module)?)?;
-    module.add_function(wrap_pyfunction!(photos::match_photos, module)?)?;
-    module.add_function(wrap_pyfunction!(photos::match_rectified, module)?)?;
-    module.add_function(wrap_pyfunction!(photos::reconstruct_photos, module)?)?;
-    module.add_function(wrap_pyfunction!(odometry::monocular_odometry, module)?)?;
-    module.add_function(wrap_pyfunction!(odometry::stereo_odometry, module)?)?;
-    module.add_function(wrap_pyfunction!(loops::close_loops, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        loops::estimate_similarity_of_points,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(loops::average_rotations, module)?)?;
-    module.add_function(wrap_pyfunction!(tracks::build_tracks, module)?)?;
-    module.add_function(wrap_pyfunction!(tracks::verify_matches, module)?)?;
-    module.add_function(wrap_pyfunction!(two_view::two_view_reconstruction, module)?)
+    classes!(module:
+        similarity::{Similarity3},
+        alignment::{ErrorStatistics, RelativePoseError},
+        bundle::{Sensor, Bundle},
+        bal::{BalProblem},
+        images::{PositionPrior, SfmImage, PairMatches, SfmInput},
+        photos::{Photo},
+        photo_features::{PhotoFeatures},
+        reconstruction::{Reconstruction, Localization},
+        incremental::{SfmStep, SfmResult, IncrementalReconstruction, WhyUnregistered},
+        odometry::{OdometryResult, Odometry},
+        pose_graph::{PoseGraph, PoseGraphReport},
+        loops::{LoopClosure, ClosedPath},
+        tracks::{VerifiedPair},
+        two_view::{TwoViewReconstruction}
+    );
+    functions!(module:
+        alignment::{align_points, absolute_trajectory_error, relative_pose_error},
+        bundle::{adjust_bundle},
+        bal::{adjust_bal},
+        incremental::{reconstruct, why_unregistered},
+        known_poses::{triangulate_tracks},
+        photos::{photo_features, match_features, match_photos, match_rectified, reconstruct_photos},
+        odometry::{monocular_odometry, stereo_odometry},
+        loops::{close_loops, estimate_similarity_of_points, average_rotations},
+        tracks::{build_tracks, verify_matches},
+        two_view::{two_view_reconstruction}
+    );
+    Ok(())
 }

@@ -5,9 +5,10 @@ use super::incremental::SfmStep;
 use super::reconstruction::Reconstruction;
 use super::wrapper::wrapper;
 use crate::camera::{Camera, RigidTransform};
-use crate::steps::{take, with};
+use crate::steps::{self, Job, take};
 use crate::{options, progress};
 use epipole::feature::Match;
+use epipole::progress::Monitor;
 use epipole::sfm;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -83,16 +84,17 @@ impl OdometryResult {
 /// Arguments of the functions for stereo rigs.
 struct Right {
     images: Vec<sfm::SfmImage>,
-    left_right: Vec<Vec<Match>>,
+    /// Matches between the two images of each frame.
+    pairs: Vec<Vec<Match>>,
 }
 
 impl Right {
     fn read(right: Vec<SfmImage>, left_right: Vec<Bound<'_, PyAny>>) -> PyResult<Self> {
         let frames = left_right.iter().enumerate();
-        let left_right = frames.map(|(k, frame)| matches(&format!("left_right[{k}]"), frame));
+        let pairs = frames.map(|(k, frame)| matches(&format!("left_right[{k}]"), frame));
         Ok(Self {
             images: right.into_iter().map(|image| image.0).collect(),
-            left_right: left_right.collect::<PyResult<_>>()?,
+            pairs: pairs.collect::<PyResult<_>>()?,
         })
     }
 }
@@ -130,10 +132,9 @@ pub(super) fn monocular_odometry(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<OdometryResult> {
-    let options = options::read(options)?;
     let input = &input.0;
-    let result = progress::run(py, progress, |monitor| {
-        sfm::monocular_odometry(input, &options, monitor)
+    let result = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::monocular_odometry(input, options, monitor)
     })?;
     Ok(OdometryResult(result))
 }
@@ -184,25 +185,17 @@ pub(super) fn stereo_odometry(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<OdometryResult> {
     let options = options::read(options)?;
-    let Right { images, left_right } = Right::read(right, left_right)?;
+    let Right { images, pairs } = Right::read(right, left_right)?;
     let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
     let result = progress::run(py, progress, |monitor| {
-        sfm::stereo_odometry(
-            left,
-            &images,
-            &left_right,
-            motion,
-            camera,
-            &options,
-            monitor,
-        )
+        sfm::stereo_odometry(left, &images, &pairs, motion, camera, &options, monitor)
     })?;
     Ok(OdometryResult(result))
 }
 
 /// Step-by-step `monocular_odometry` or `stereo_odometry`.
 #[pyclass(frozen, module = "epipole.sfm")]
-pub(super) struct Odometry(Mutex<Option<sfm::Odometry>>);
+pub(super) struct Odometry(Job<sfm::Odometry>);
 
 #[pymethods]
 impl Odometry {
@@ -233,12 +226,10 @@ impl Odometry {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let options = options::read(options)?;
-        let input = &input.0;
-        let started = progress::run(py, progress, |monitor| {
-            sfm::Odometry::monocular(input, &options, monitor)
-        })?;
-        Ok(Self(Mutex::new(Some(started))))
+        let monocular = |options: &_, monitor: &mut dyn Monitor| {
+            sfm::Odometry::monocular(&input.0, options, monitor)
+        };
+        Ok(Self(steps::start(py, progress, options, monocular)?))
     }
 
     /// Starts with a stereo rig; see `stereo_odometry`.
@@ -280,18 +271,10 @@ impl Odometry {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let options = options::read(options)?;
-        let Right { images, left_right } = Right::read(right, left_right)?;
+        let Right { images, pairs } = Right::read(right, left_right)?;
         let (left, motion, camera) = (&left.0, &right_from_left.0, &right_camera.0);
         let started = progress::run(py, progress, |monitor| {
-            sfm::Odometry::stereo(
-                left,
-                &images,
-                &left_right,
-                motion,
-                camera,
-                &options,
-                monitor,
-            )
+            sfm::Odometry::stereo(left, &images, &pairs, motion, camera, &options, monitor)
         })?;
         Ok(Self(Mutex::new(Some(started))))
     }
@@ -311,9 +294,8 @@ impl Odometry {
     ///     If the job is finished, or another thread uses it.
     #[pyo3(signature = (*, progress=None))]
     fn step(&self, py: Python<'_>, progress: Option<Py<PyAny>>) -> PyResult<Option<SfmStep>> {
-        with(&self.0, |work| {
-            Ok(progress::run(py, progress, |monitor| work.step(monitor))?.map(SfmStep))
-        })
+        let step = steps::step(&self.0, py, progress, sfm::Odometry::step);
+        Ok(step?.map(SfmStep))
     }
 
     /// Ends the job and returns the path so far, an `OdometryResult`.

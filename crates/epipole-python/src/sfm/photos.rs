@@ -99,10 +99,9 @@ pub(super) fn photo_features(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PhotoFeatures> {
-    let options = options::read(options)?;
     let photo = &photo.0;
-    let features = progress::run(py, progress, |monitor| {
-        sfm::photo_features(photo, &options, monitor)
+    let features = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::photo_features(photo, options, monitor)
     })?;
     Ok(PhotoFeatures(features))
 }
@@ -137,10 +136,9 @@ pub(super) fn match_features(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Vec<PairMatches>> {
-    let options = options::read(options)?;
     let features: Vec<_> = features.into_iter().map(|features| features.0).collect();
-    let pairs = progress::run(py, progress, |monitor| {
-        sfm::match_features(&features, &options, monitor)
+    let pairs = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::match_features(&features, options, monitor)
     })?;
     Ok(pairs.into_iter().map(PairMatches).collect())
 }
@@ -174,10 +172,9 @@ pub(super) fn match_rectified<'py>(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let options = options::read(options)?;
     let (left, right) = (&left.0, &right.0);
-    let matches = progress::run(py, progress, |monitor| {
-        sfm::match_rectified(left, right, &options, monitor)
+    let matches = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::match_rectified(left, right, options, monitor)
     })?;
     give_matches(py, &matches)
 }
@@ -211,10 +208,9 @@ pub(super) fn match_photos(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(Vec<SfmImage>, Vec<PairMatches>)> {
-    let options = options::read(options)?;
     let photos: Vec<_> = photos.into_iter().map(|photo| photo.0).collect();
-    let (images, pairs) = progress::run(py, progress, |monitor| {
-        sfm::match_photos(&photos, &options, monitor)
+    let (images, pairs) = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::match_photos(&photos, options, monitor)
     })?;
     let images = images.into_iter().map(SfmImage).collect();
     Ok((images, pairs.into_iter().map(PairMatches).collect()))
@@ -259,11 +255,10 @@ pub(super) fn reconstruct_photos(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(SfmInput, SfmResult)> {
     let photo_options = options::read(photo_options)?;
-    let options = options::read(options)?;
     let photos: Vec<_> = photos.into_iter().map(|photo| photo.0).collect();
     let cameras: Vec<_> = cameras.into_iter().map(|camera| camera.0).collect();
-    let (input, result) = progress::run(py, progress, |monitor| {
-        sfm::reconstruct_photos(&photos, &cameras, &photo_options, &options, monitor)
+    let (input, result) = progress::run_with(py, progress, options, |options, monitor| {
+        sfm::reconstruct_photos(&photos, &cameras, &photo_options, options, monitor)
     })?;
     Ok((SfmInput(input), SfmResult(result)))
 }

@@ -424,10 +424,9 @@ impl PoseGraph {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Self, PoseGraphReport)> {
         let loss = options::loss(loss)?;
-        let options = options::read(options)?;
         let mut graph = self.0.clone();
-        let report = progress::run(py, progress, |monitor| {
-            graph.optimize(&options, loss, monitor)
+        let report = progress::run_with(py, progress, options, |options, monitor| {
+            graph.optimize(options, loss, monitor)
         })?;
         Ok((Self(graph), report.into()))
     }

@@ -9,8 +9,8 @@ use super::wrapper::{colors, give_colors, give_index_rows, give_indices, require
 use crate::arrays::{from_rows, from_vector, points3, vector};
 use crate::camera::{Camera, PosedCamera, RigidTransform};
 use crate::images::column;
+use crate::progress;
 use crate::record::record;
-use crate::{options, progress};
 use epipole::nalgebra::Point3;
 use epipole::sfm;
 use numpy::{PyArray1, PyArray2};
@@ -96,13 +96,7 @@ impl Reconstruction {
     /// Points in the world, shape (P, 3).
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<_> = self
-            .0
-            .points
-            .iter()
-            .map(|point| point.position.coords)
-            .collect();
-        from_rows(py, &rows)
+        from_rows(py, self.0.points.iter().map(|point| point.position.coords))
     }
 
     /// Observations, int64 of shape (K, 3): indices of the point, the image and its keypoint.
@@ -249,11 +243,10 @@ impl Reconstruction {
         progress: Option<Py<PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Localization> {
-        let options = options::read(options)?;
         let features: Vec<_> = features.into_iter().map(|features| features.0).collect();
         let (photo, camera) = (&photo.0, &camera.0);
-        let found = progress::run(py, progress, |monitor| {
-            self.0.localize(&features, photo, camera, &options, monitor)
+        let found = progress::run_with(py, progress, options, |options, monitor| {
+            self.0.localize(&features, photo, camera, options, monitor)
         })?;
         let inliers = found
             .inliers

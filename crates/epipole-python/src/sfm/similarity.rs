@@ -5,6 +5,7 @@ use crate::arrays::{Batch, from_matrix, from_vector};
 use crate::camera::RigidTransform;
 use epipole::nalgebra::{self, Point3};
 use numpy::{PyArray1, PyArray2};
+use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -84,16 +85,12 @@ impl Similarity3 {
     /// Returns
     /// -------
     /// Similarity3 or ndarray of the same shape
-    fn __matmul__<'py>(
-        &self,
-        py: Python<'py>,
-        other: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        if let Ok(other) = other.cast::<Self>() {
-            let product = Self(self.0 * other.get().0);
-            return Ok(product.into_pyobject(py)?.into_any());
+    fn __matmul__<'py>(&self, other: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(second) = other.cast::<Self>() {
+            let product = Self(self.0 * second.get().0);
+            return product.into_bound_py_any(other.py());
         }
         let apply = |x: &_| Ok((self.0 * Point3::from(*x)).coords);
-        Batch::<3>::read("points", other)?.vectors(py, apply)
+        Batch::<3>::read("points", other)?.vectors(other.py(), apply)
     }
 }

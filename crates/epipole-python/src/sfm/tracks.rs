@@ -4,8 +4,8 @@ use super::images::{PairMatches, SfmImage};
 use super::wrapper::{give_index_rows, index_rows};
 use crate::camera::{Camera, RigidTransform};
 use crate::errors::OrRaise;
+use crate::progress;
 use crate::record::record;
-use crate::{options, progress};
 use epipole::sfm::{self, TrackElement};
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
@@ -129,12 +129,11 @@ pub(super) fn verify_matches(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Option<VerifiedPair>> {
-    let options = options::read(options)?;
     let pair = &pair.0;
-    let verified = progress::run(py, progress, |monitor| {
+    let verified = progress::run_with(py, progress, options, |options, monitor| {
         let images = [&images[0].0, &images[1].0];
         let cameras = [&cameras[0].0, &cameras[1].0];
-        sfm::verify_matches(pair, images, cameras, &options, monitor)
+        sfm::verify_matches(pair, images, cameras, options, monitor)
     })?;
     Ok(verified.map(|verified| VerifiedPair {
         pair: PairMatches(verified.pair),

@@ -2,12 +2,11 @@
 
 use super::bundle::plain_options;
 use super::wrapper::give_indices;
-use crate::arrays::{from_rows, points2};
+use crate::arrays::{from_points, pixel_pairs};
 use crate::camera::{Camera, RigidTransform};
 use crate::optim::LmReport;
 use crate::record::record;
 use crate::{options, progress};
-use epipole::nalgebra::Point3;
 use epipole::sfm;
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -78,20 +77,16 @@ pub(super) fn two_view_reconstruction(
     progress: Option<Py<PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<TwoViewReconstruction> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let options = options::read(plain_options(options)?.as_ref())?;
     let (cameras, motion) = ([&camera1.0, &camera2.0], &cam2_from_cam1.0);
     let found = progress::run(py, progress, |monitor| {
         sfm::two_view_reconstruction(&pixels1, &pixels2, cameras, motion, &options, monitor)
     })?;
-    let rows = |points: &[Point3<f64>]| {
-        let rows: Vec<_> = points.iter().map(|point| point.coords).collect();
-        PyResult::Ok(from_rows(py, &rows)?.unbind())
-    };
     Ok(TwoViewReconstruction {
         cam2_from_cam1: found.cam2_from_cam1.into(),
-        points: rows(&found.points)?,
-        triangulated: rows(&found.triangulated)?,
+        points: from_points(py, &found.points)?.unbind(),
+        triangulated: from_points(py, &found.triangulated)?.unbind(),
         match_of_point: give_indices(py, &found.match_of_point).unbind(),
         num_in_front: found.num_in_front,
         rms_before_px: found.rms_before_px,

@@ -7,28 +7,15 @@ use numpy::{PyArray1, PyArray2, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// Implements `__repr__`, `_repr_html_`, `__eq__` and `__reduce__` for a class that wraps a value
-/// of the library. The constructor of the class takes these attributes.
+/// Implements everything of `shown_class`, and `__eq__`, for a class around a value of the library.
 macro_rules! wrapper {
     ($class:ident: $($field:ident),+) => {
+        $crate::record::shown_class!($class: $($field),+);
+
         #[pymethods]
         impl $class {
-            fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
-                $crate::record::repr(slf, &[$(stringify!($field)),+])
-            }
-
-            fn _repr_html_(slf: &Bound<'_, Self>) -> PyResult<String> {
-                $crate::record::html(slf, &[$(stringify!($field)),+])
-            }
-
             fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
                 other.cast::<Self>().is_ok_and(|other| other.get().0 == self.0)
-            }
-
-            fn __reduce__<'py>(
-                slf: &Bound<'py, Self>,
-            ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, pyo3::types::PyTuple>)> {
-                $crate::record::reduce(slf, &[$(stringify!($field)),+])
             }
         }
     };

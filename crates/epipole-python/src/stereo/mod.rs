@@ -10,31 +10,26 @@ mod uncalibrated;
 
 pub(crate) use depth::PointCloud;
 
+use crate::register::{classes, functions};
 use pyo3::prelude::*;
 
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     crate::options::declare(module, &epipole::stereo::RectifyOptions::default())?;
     crate::options::declare(module, &epipole::stereo::StereoBm::default())?;
     crate::options::declare(module, &epipole::stereo::StereoSgm::default())?;
-    module.add_class::<matcher::StereoBm>()?;
-    module.add_class::<matcher::StereoSgm>()?;
-    module.add_class::<depth::DepthInterval>()?;
-    module.add_class::<depth::PointCloud>()?;
-    module.add_class::<pixel_map::PixelMap>()?;
-    module.add_class::<rectify::PixelRect>()?;
-    module.add_class::<rectify::Rectification>()?;
-    module.add_class::<pair::RectifiedPair>()?;
-    module.add_class::<uncalibrated::UncalibratedRectification>()?;
-    module.add_function(wrap_pyfunction!(rectify::rectify_calibrated, module)?)?;
-    module.add_function(wrap_pyfunction!(rectify::q_from_rig, module)?)?;
-    module.add_function(wrap_pyfunction!(
-        uncalibrated::rectify_uncalibrated,
-        module
-    )?)?;
-    module.add_function(wrap_pyfunction!(disparity::remove_speckles, module)?)?;
-    module.add_function(wrap_pyfunction!(disparity::fill_gaps, module)?)?;
-    module.add_function(wrap_pyfunction!(depth::depth_from_disparity, module)?)?;
-    module.add_function(wrap_pyfunction!(depth::depth_interval, module)?)?;
-    module.add_function(wrap_pyfunction!(depth::depth_image, module)?)?;
-    module.add_function(wrap_pyfunction!(depth::point_cloud, module)?)
+    classes!(module:
+        matcher::{StereoBm, StereoSgm},
+        depth::{DepthInterval, PointCloud},
+        pixel_map::{PixelMap},
+        rectify::{PixelRect, Rectification},
+        pair::{RectifiedPair},
+        uncalibrated::{UncalibratedRectification}
+    );
+    functions!(module:
+        rectify::{rectify_calibrated, q_from_rig},
+        uncalibrated::{rectify_uncalibrated},
+        disparity::{remove_speckles, fill_gaps},
+        depth::{depth_from_disparity, depth_interval, depth_image, point_cloud}
+    );
+    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Rectification without calibration.
 
 use super::rectify::PixelRect;
-use crate::arrays::{from_matrices, matrix, points2};
+use crate::arrays::{from_matrices, matrix, pixel_pairs};
 use crate::errors::OrRaise;
 use crate::record::record;
 use epipole::nalgebra::Matrix3;
@@ -56,7 +56,7 @@ pub(super) fn rectify_uncalibrated(
 ) -> PyResult<UncalibratedRectification> {
     let py = fundamental.py();
     let f: Matrix3<f64> = matrix("fundamental", fundamental)?;
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     let found = stereo::rectify_uncalibrated(&f, &pixels1, &pixels2, width, height).or_raise()?;
     let [first, second] = found.outlines.map(PixelRect::from);
     Ok(UncalibratedRectification {

@@ -7,14 +7,14 @@ pub(super) use run::Trial;
 use super::RansacReport;
 use super::model::{Callables, Raised, Scored};
 use super::similarity::PlaneSimilarity;
-use crate::arrays::{from_matrix, from_vector, matrix, points2, vector};
+use crate::arrays::{from_matrix, from_vector, matrix, pixel_pairs, points2, vector};
 use crate::errors::OrRaise;
 use crate::steps::{take, with};
 use epipole::epipolar::FundamentalEstimator;
 use epipole::homography::HomographyEstimator;
 use epipole::math::Line2;
 use epipole::nalgebra::Matrix3;
-use epipole::robust::{self, LineEstimator, MatchSet, SimilarityEstimator};
+use epipole::robust::{self, Estimator, LineEstimator, MatchSet, SimilarityEstimator};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -70,9 +70,34 @@ fn give_matrix(py: Python<'_>, model: &Matrix3<f64>) -> PyResult<Py<PyAny>> {
     Ok(from_matrix(py, model)?.into_any().unbind())
 }
 
+fn read_matrix<E>(_: &E, model: &Bound<'_, PyAny>) -> PyResult<Matrix3<f64>> {
+    matrix("model", model)
+}
+
 fn match_set(pixels1: &Bound<'_, PyAny>, pixels2: &Bound<'_, PyAny>) -> PyResult<MatchSet> {
-    let (pixels1, pixels2) = (points2("pixels1", pixels1)?, points2("pixels2", pixels2)?);
+    let [pixels1, pixels2] = pixel_pairs(pixels1, pixels2)?;
     MatchSet::new(&pixels1, &pixels2).or_raise()
+}
+
+impl Ransac {
+    /// Starts a run for a model of the library.
+    fn start<E>(
+        estimator: epipole::Result<E>,
+        options: Option<&Bound<'_, PyDict>>,
+        give: fn(Python<'_>, &E::Model) -> PyResult<Py<PyAny>>,
+        read: fn(&E, &Bound<'_, PyAny>) -> PyResult<E::Model>,
+    ) -> PyResult<Self>
+    where
+        E: Estimator<Model: Send + Sync> + Send + 'static,
+    {
+        Ok(Self(start(
+            estimator,
+            options,
+            give,
+            read,
+            Raised::default(),
+        )?))
+    }
 }
 
 #[pymethods]
@@ -128,13 +153,7 @@ impl Ransac {
         let read = |_: &_, line: &Bound<'_, PyAny>| {
             Line2::from_homogeneous(&vector("model", line)?).or_raise()
         };
-        Ok(Self(start(
-            estimator,
-            options,
-            give,
-            read,
-            Raised::default(),
-        )?))
+        Self::start(estimator, options, give, read)
     }
 
     /// Starts a run for a similarity of the plane; see `estimate_similarity`.
@@ -175,13 +194,7 @@ impl Ransac {
                 model.get_type().name()?
             ))),
         };
-        Ok(Self(start(
-            Ok(estimator),
-            options,
-            give,
-            read,
-            Raised::default(),
-        )?))
+        Self::start(Ok(estimator), options, give, read)
     }
 
     /// Starts a run for a fundamental matrix; see `epipole.epipolar.estimate_fundamental`.
@@ -214,14 +227,7 @@ impl Ransac {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let estimator = FundamentalEstimator::new(match_set(pixels1, pixels2)?);
-        let read = |_: &_, model: &Bound<'_, PyAny>| matrix("model", model);
-        Ok(Self(start(
-            estimator,
-            options,
-            give_matrix,
-            read,
-            Raised::default(),
-        )?))
+        Self::start(estimator, options, give_matrix, read_matrix)
     }
 
     /// Starts a run for a homography; see `epipole.homography.estimate_homography`.
@@ -254,14 +260,7 @@ impl Ransac {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let estimator = HomographyEstimator::new(match_set(pixels1, pixels2)?);
-        let read = |_: &_, model: &Bound<'_, PyAny>| matrix("model", model);
-        Ok(Self(start(
-            estimator,
-            options,
-            give_matrix,
-            read,
-            Raised::default(),
-        )?))
+        Self::start(estimator, options, give_matrix, read_matrix)
     }
 
     /// Improves a known model, such as that of the previous frame, and starts from it.
