@@ -19,12 +19,13 @@ const LEAST_CONTRAST: f64 = 0.02;
 /// Minimum number of pixels to determine nine parameters well.
 const LEAST_PIXELS: usize = 25;
 
-/// A side of an inset: the points whose distance from the nearest edge is
-/// `offset_px + slope · (position along the edge)`, on one side of the edge.
+/// Side of an inset along an edge: the inset is where
+/// `sign · (distance from the edge) > offset_px + slope · (position along the edge)`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct InsetSide {
-    /// Sign of the signed distance from the edge.
+    /// 1 or -1.
     pub(super) sign: f64,
+    /// Distance from the edge beside the crossing, pixels.
     pub(super) offset_px: f64,
     /// Zero unless the board is seen in perspective.
     pub(super) slope: f64,

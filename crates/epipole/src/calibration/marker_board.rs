@@ -322,7 +322,7 @@ mod tests {
                 };
                 let (count, charuco_px) = rms_px(charuco, blur_px);
                 assert!(
-                    count > 100 && charuco_px < 1.2 * chessboard_px,
+                    count > 100 && charuco_px < 0.025 && charuco_px < 1.2 * chessboard_px,
                     "{blur_px} {marker_ratio}: {count} {charuco_px} {chessboard_px}"
                 );
             }
